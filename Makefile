@@ -1,0 +1,39 @@
+# make demo: run the demonstration; make test: run all tests. Both set up .venv the first time.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/ready
+TEST_READY := $(VENV)/ready-to-test
+INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable
+
+.PHONY: demo test lint clean
+
+demo: $(READY)
+	$(BIN)/tactile_push demo
+
+test: lint
+	$(BIN)/python -m pytest
+
+lint: $(TEST_READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+$(READY): setup.py setup.cfg pyproject.toml
+	@command -v $(PYTHON) >/dev/null || \
+	  { echo "make: $(PYTHON) not found; expected Python 3.10 to 3.13, set PYTHON=" >&2; exit 2; }
+	@$(PYTHON) -c 'import sys; sys.exit(not (3, 10) <= sys.version_info[:2] <= (3, 13))' || \
+	  { echo "make: $$($(PYTHON) --version) is not supported; expected Python 3.10 to 3.13, set PYTHON=" >&2; exit 2; }
+	@$(PYTHON) -c 'import venv, ensurepip' 2>/dev/null || \
+	  { echo "make: $(PYTHON) has no venv module; install it (Debian, Ubuntu: apt install python3-venv)" >&2; exit 2; }
+	$(PYTHON) -m venv $(VENV)
+	$(INSTALL) .
+	touch $@
+
+$(TEST_READY): $(READY)
+	$(INSTALL) '.[test]'
+	touch $@
+
+clean:
+	rm -rf $(VENV) build install log out *.egg-info

@@ -1,0 +1,87 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""The demonstration on a machine with ROS 2: the four nodes, in simulated time, and RViz."""
+
+import os
+
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.conditions import IfCondition
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
+
+SHARE = get_package_share_directory('tactile_push')
+
+
+def generate_launch_description() -> LaunchDescription:
+    arguments = [
+        DeclareLaunchArgument(
+            'object', default_value='block', choices=['block', 'disk'], description='what is pushed'
+        ),
+        DeclareLaunchArgument(
+            'kp', default_value='0.05', description='proportional gain [rad/rad]'
+        ),
+        DeclareLaunchArgument('kd', default_value='5.0', description='derivative gain [rad/rad]'),
+        DeclareLaunchArgument(
+            'real_time_factor',
+            default_value='1.0',
+            description='simulated seconds a second, at the most',
+        ),
+        DeclareLaunchArgument(
+            'device',
+            default_value='socket://127.0.0.1:54320',
+            description='where plant and driver meet',
+        ),
+        DeclareLaunchArgument(
+            'rviz', default_value='true', choices=['true', 'false'], description='start RViz'
+        ),
+    ]
+    config = PathJoinSubstitution([SHARE, 'config', [LaunchConfiguration('object'), '.yaml']])
+    simulated = {'use_sim_time': True}
+    device = {'device': LaunchConfiguration('device')}
+    nodes = [
+        _node(
+            'sim_plant',
+            config,
+            device,
+            {'publish_clock': True, 'real_time_factor': _number('real_time_factor')},
+        ),
+        _node('sensor_driver', device, simulated),
+        _node('contact_geometry', config, simulated),
+        _node('push_controller', config, {'kp': _number('kp'), 'kd': _number('kd')}, simulated),
+        Node(
+            package='rviz2',
+            executable='rviz2',
+            arguments=['-d', os.path.join(SHARE, 'config', 'demo.rviz')],
+            parameters=[simulated],
+            condition=IfCondition(LaunchConfiguration('rviz')),
+        ),
+    ]
+    return LaunchDescription([*arguments, *nodes])
+
+
+def _number(argument: str) -> ParameterValue:
+    return ParameterValue(LaunchConfiguration(argument), value_type=float)
+
+
+def _node(executable: str, *parameters: object) -> Node:
+    return Node(
+        package='tactile_push',
+        executable=executable,
+        name=executable,
+        parameters=list(parameters),
+        output='screen',
+    )

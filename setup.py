@@ -1,0 +1,69 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Build of the package, for pip and for colcon alike."""
+
+from glob import glob
+
+from setuptools import find_packages, setup
+
+NAME = 'tactile_push'
+NODES = ('sensor_driver', 'contact_geometry', 'push_controller', 'sim_plant', 'experiment')
+
+setup(
+    name=NAME,
+    version='0.1.0',
+    description='Manipulation and active sensing by pushing with tactile feedback alone',
+    author='The tactile_push authors',
+    license='Apache-2.0',
+    python_requires='>=3.10',
+    packages=find_packages(include=[NAME, f'{NAME}.*']),
+    data_files=[
+        ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
+        (f'share/{NAME}', ['package.xml']),
+        (f'share/{NAME}/config', glob('config/*')),
+        (f'share/{NAME}/launch', glob('launch/*')),
+    ],
+    install_requires=[
+        'matplotlib>=3.8,<4',
+        'mcap>=1.5,<2',
+        'mcap-ros2-support>=0.5.5,<1',
+        'numba>=0.59,<1',
+        'numpy>=1.26,<3',
+        'pyserial>=3.5,<4',
+        'pyyaml>=6,<7',
+        'rich>=13,<16',
+        'ros-jazzy-common-interfaces>=5.3,<6',
+        'ros-jazzy-rclpy[fastrtps]>=7.1,<8',
+    ],
+    extras_require={
+        'test': [
+            'colcon-core>=0.18,<1',
+            'colcon-python-setup-py>=0.2.9,<1',
+            'colcon-ros>=0.5,<1',
+            'hypothesis>=6,<7',
+            'mypy>=1.13,<3',
+            'pytest>=8,<10',
+            'rosbags>=0.10,<1',
+            'ruff>=0.8,<1',
+            'setuptools<80',
+        ],
+    },
+    zip_safe=False,
+    entry_points={
+        'console_scripts': [
+            f'{NAME} = {NAME}.cli:main',
+            *(f'{node} = {NAME}.nodes.{node}:main' for node in NODES),
+        ],
+    },
+)

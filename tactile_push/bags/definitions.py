@@ -1,0 +1,105 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Message definitions in the form that a bag carries them: MCAP's `ros2msg` schema encoding.
+
+A definition is the text of the .msg file, followed by that of every message it is made of, each
+behind a separator line, in the order in which rosbag2 writes them.
+"""
+
+import os
+import re
+import sys
+from pathlib import Path
+
+_SEPARATOR = '=' * 80
+
+_TYPE_NAME = re.compile(r'([A-Za-z0-9_]+)/(?:msg/)?([A-Za-z0-9_]+)')
+
+# The type that begins a line of a .msg file. Comments and bounded strings do not match; neither
+# names a message.
+_FIELD_TYPE = re.compile(r'^[ \t]*([A-Za-z0-9_/]+)(?:\[[^\]]*\])?\s', re.MULTILINE)
+
+_PRIMITIVES = frozenset(
+    [
+        'bool',
+        'byte',
+        'char',
+        'float32',
+        'float64',
+        'int8',
+        'uint8',
+        'int16',
+        'uint16',
+        'int32',
+        'uint32',
+        'int64',
+        'uint64',
+        'string',
+        'wstring',
+    ]
+)
+
+
+def schema_text(type_name: str) -> str:
+    """Return the definition of a message type with those of all its parts.
+
+    Parameters
+    ----------
+    type_name : str
+        For example ``'sensor_msgs/msg/JointState'``.
+
+    Returns
+    -------
+    str
+        Content of an MCAP schema record whose encoding is ``ros2msg``.
+
+    Raises
+    ------
+    LookupError
+        If no .msg file defines the type or one of its parts.
+    """
+    return _with_parts(type_name, set())
+
+
+def _with_parts(type_name: str, seen: set[str]) -> str:
+    """Return the definition of a type and of those parts that are not in `seen` yet."""
+    package, text = _read_definition(type_name)
+    parts = {
+        name if '/' in name else f'{package}/{name}'
+        for name in _FIELD_TYPE.findall(text)
+        if name not in _PRIMITIVES
+    }
+    for part in sorted(parts):
+        if part not in seen:
+            seen.add(part)
+            text += f'\n{_SEPARATOR}\nMSG: {part}\n' + _with_parts(part, seen)
+    return text
+
+
+def _read_definition(type_name: str) -> tuple[str, str]:
+    """Return the package of a type and the text of its .msg file."""
+    match = _TYPE_NAME.fullmatch(type_name)
+    if match is None:
+        raise LookupError(f"'{type_name}' is no message type: expected package/msg/Type")
+    package, name = match.groups()
+    # Packages from PyPI lie in the Python environment, where no ament prefix points.
+    ament_prefixes = os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep)
+    prefixes = [prefix for prefix in (*ament_prefixes, sys.prefix) if prefix]
+    for prefix in prefixes:
+        path = Path(prefix, 'share', package, 'msg', f'{name}.msg')
+        if path.is_file():
+            return package, path.read_bytes().decode()
+    raise LookupError(
+        f'no definition of {type_name}: no share/{package}/msg/{name}.msg in {", ".join(prefixes)}'
+    )

@@ -1,0 +1,125 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""The control law (18) and the finger velocity for its push angle (Sections IV, V.A)."""
+
+import math
+
+AHEAD = math.pi / 2.0  # the push angle of a finger at rest: the belt alone pushes
+
+
+class PushLaw:
+    """The law (18), one push angle a control period.
+
+        phi(k) = phi(k-1) + kp [theta(k) - theta_d] + kd [theta(k) - theta(k-1)]
+
+    It is the velocity form of a proportional-derivative law: phi itself is the memory. So the
+    gains and theta_d may change at any time without a bump, and clamping phi leaves nothing that
+    could wind up. The first reading after `reset` gives the initial phi: there is no theta(k-1)
+    to differ from, hence no kick.
+
+    Parameters
+    ----------
+    kp : float
+        Proportional gain [rad/rad], 0 or more.
+    kd : float
+        Derivative gain [rad/rad], 0 or more.
+    theta_desired : float
+        The edge's desired angle theta_d [rad].
+    phi_min, phi_max : float
+        Bounds of phi [rad], 0 < phi_min <= pi/2 <= phi_max < pi; the paper uses 33 and 147
+        degrees.
+    """
+
+    def __init__(
+        self,
+        kp: float,
+        kd: float,
+        theta_desired: float,
+        phi_min: float = math.radians(33.0),
+        phi_max: float = math.radians(147.0),
+    ) -> None:
+        self.kp = kp
+        self.kd = kd
+        self.theta_desired = theta_desired
+        self.phi_min = phi_min
+        self.phi_max = phi_max
+        self.phi = AHEAD
+        self._theta_before: float | None = None
+
+    def reset(self, phi: float = AHEAD) -> None:
+        """Forget the last reading and start over.
+
+        Parameters
+        ----------
+        phi : float, optional
+            Push angle to start from [rad]; straight ahead by default, which is where a finger
+            at rest pushes.
+        """
+        self.phi = self._clamped(phi)
+        self._theta_before = None
+
+    def update(self, theta: float) -> float:
+        """Take a reading and give the push angle of the next period.
+
+        Parameters
+        ----------
+        theta : float
+            Sensed angle of the pushed edge [rad].
+
+        Returns
+        -------
+        float
+            phi [rad] in [phi_min, phi_max].
+
+        Raises
+        ------
+        ValueError
+            If theta is not finite.
+        """
+        if not math.isfinite(theta):
+            raise ValueError(f'theta: expected a finite angle [rad], got {theta}')
+        if self._theta_before is not None:
+            self.phi = self._clamped(
+                self.phi
+                + self.kp * (theta - self.theta_desired)
+                + self.kd * (theta - self._theta_before)
+            )  # (18)
+        self._theta_before = theta
+        return self.phi
+
+    @property
+    def saturated(self) -> bool:
+        """Whether phi is at one of its bounds."""
+        return not self.phi_min < self.phi < self.phi_max
+
+    def _clamped(self, phi: float) -> float:
+        return min(max(phi, self.phi_min), self.phi_max)
+
+
+def finger_velocity(phi: float, belt_speed: float) -> float:
+    """Give the finger's velocity across the belt, v_x = v_y / tan(phi) (Section V.A).
+
+    Parameters
+    ----------
+    phi : float
+        Push angle [rad], 0 < phi < pi.
+    belt_speed : float
+        Speed of the belt, v_y [m/s].
+
+    Returns
+    -------
+    float
+        v_x [m/s]; exactly 0 straight ahead.
+    """
+    return belt_speed * math.cos(phi) / math.sin(phi) if phi != AHEAD else 0.0

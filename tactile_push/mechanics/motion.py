@@ -1,0 +1,230 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Motion of a pushed object under the ellipsoidal limit surface (Section II.C).
+
+All vectors are in the edge frame: x along the tangent (the direction of increasing d), y along
+the normal into the object, origin at the centre of mass. The contact lies at (x_c, y_c) =
+(d, -l). The equations hold in any frame; this one spares every rotation.
+"""
+
+import numba
+
+FREE, STICK, SLIP_LEFT, SLIP_RIGHT = 0, 1, 2, 3
+MODES = ('free', 'stick', 'slip_left', 'slip_right')
+
+
+@numba.njit(cache=True)
+def contact_velocity(
+    v_x: float, v_y: float, omega: float, x_c: float, y_c: float
+) -> tuple[float, float]:
+    """Give the velocity of the object's material at the contact.
+
+    Parameters
+    ----------
+    v_x, v_y, omega : float
+        Velocity of the object at its centre of mass [m/s, m/s, rad/s].
+    x_c, y_c : float
+        Contact relative to the centre of mass [m].
+
+    Returns
+    -------
+    v_ox, v_oy : float
+        Velocity [m/s].
+    """
+    return v_x - omega * y_c, v_y + omega * x_c
+
+
+@numba.njit(cache=True)
+def twist_under_force(
+    f_x: float, f_y: float, x_c: float, y_c: float, c: float
+) -> tuple[float, float, float]:
+    """Give the motion under a force at the contact, up to a positive factor.
+
+    Parameters
+    ----------
+    f_x, f_y : float
+        Force at the contact, in any unit.
+    x_c, y_c : float
+        Contact relative to the centre of mass [m].
+    c : float
+        Ratio m_max / f_max [m].
+
+    Returns
+    -------
+    v_x, v_y, omega : float
+        Direction of the generalized velocity at the centre of mass, eqs. (4), (5), (8).
+    """
+    m = x_c * f_y - y_c * f_x  # (8)
+    return f_x, f_y, m / c**2  # (4), (5)
+
+
+@numba.njit(cache=True)
+def motion_cone(
+    x_c: float, y_c: float, cos_alpha: float, sin_alpha: float, c: float
+) -> tuple[float, float, float, float]:
+    """Give the edges of the motion cone: contact velocities under the friction cone's edges.
+
+    Parameters
+    ----------
+    x_c, y_c : float
+        Contact relative to the centre of mass [m].
+    cos_alpha, sin_alpha : float
+        The friction cone, see `friction_cone`.
+    c : float
+        Ratio m_max / f_max [m].
+
+    Returns
+    -------
+    v_lx, v_ly, v_rx, v_ry : float
+        Left and right edge, up to a positive factor.
+    """
+    v_x, v_y, omega = twist_under_force(-sin_alpha, cos_alpha, x_c, y_c, c)
+    v_lx, v_ly = contact_velocity(v_x, v_y, omega, x_c, y_c)
+    v_x, v_y, omega = twist_under_force(sin_alpha, cos_alpha, x_c, y_c, c)
+    v_rx, v_ry = contact_velocity(v_x, v_y, omega, x_c, y_c)
+    return v_lx, v_ly, v_rx, v_ry
+
+
+@numba.njit(cache=True)
+def sticking_twist(
+    v_px: float, v_py: float, x_c: float, y_c: float, c: float
+) -> tuple[float, float, float]:
+    """Give the motion of the object when the contact sticks.
+
+    Parameters
+    ----------
+    v_px, v_py : float
+        Velocity of the finger [m/s].
+    x_c, y_c : float
+        Contact relative to the centre of mass [m].
+    c : float
+        Ratio m_max / f_max [m].
+
+    Returns
+    -------
+    v_x, v_y, omega : float
+        Velocity of the object at its centre of mass [m/s, m/s, rad/s], eqs. (9), (10), (11).
+    """
+    square = c**2 + x_c**2 + y_c**2
+    v_x = ((c**2 + x_c**2) * v_px + x_c * y_c * v_py) / square  # (9)
+    v_y = (x_c * y_c * v_px + (c**2 + y_c**2) * v_py) / square  # (10)
+    omega = (x_c * v_y - y_c * v_x) / c**2  # (11)
+    return v_x, v_y, omega
+
+
+@numba.njit(cache=True)
+def slipping_twist(
+    v_py: float, f_x: float, f_y: float, x_c: float, y_c: float, c: float
+) -> tuple[float, float, float]:
+    """Give the motion of the object when the contact slips under the force of a cone's edge.
+
+    Parameters
+    ----------
+    v_py : float
+        Velocity of the finger along the normal [m/s].
+    f_x, f_y : float
+        Edge of the friction cone, in any unit.
+    x_c, y_c : float
+        Contact relative to the centre of mass [m].
+    c : float
+        Ratio m_max / f_max [m].
+
+    Returns
+    -------
+    v_x, v_y, omega : float
+        Velocity of the object at its centre of mass [m/s, m/s, rad/s], eqs. (13), (15).
+    """
+    v_x, v_y, omega = twist_under_force(f_x, f_y, x_c, y_c, c)
+    _, v_by = contact_velocity(v_x, v_y, omega, x_c, y_c)
+    kappa = v_py / v_by  # the object gives way to the finger along the normal
+    return kappa * v_x, kappa * v_y, kappa * omega
+
+
+@numba.njit(cache=True)
+def pushed_twist(
+    v_px: float,
+    v_py: float,
+    x_c: float,
+    y_c: float,
+    cos_alpha: float,
+    sin_alpha: float,
+    c: float,
+) -> tuple[float, float, float, float, int]:
+    """Give the motion of an object that a finger pushes, whether the contact sticks or slips.
+
+    Parameters
+    ----------
+    v_px, v_py : float
+        Velocity of the finger [m/s].
+    x_c, y_c : float
+        Contact relative to the centre of mass [m].
+    cos_alpha, sin_alpha : float
+        The friction cone, see `friction_cone`.
+    c : float
+        Ratio m_max / f_max [m].
+
+    Returns
+    -------
+    v_x, v_y, omega : float
+        Velocity of the object at its centre of mass [m/s, m/s, rad/s].
+    v_slip : float
+        Velocity of the finger along the tangent relative to the object [m/s], eq. (14).
+    mode : int
+        `STICK`, `SLIP_LEFT`, `SLIP_RIGHT`, or `FREE` when the finger moves away or rests.
+    """
+    if v_py <= 0.0:
+        return 0.0, 0.0, 0.0, v_px, FREE
+    v_lx, v_ly, v_rx, v_ry = motion_cone(x_c, y_c, cos_alpha, sin_alpha, c)
+    # A finger that advances can lie outside an edge only if that edge itself advances: an edge
+    # that points backwards ("pulling") bounds nothing on its side.
+    if v_ly > 0.0 and v_lx * v_py - v_ly * v_px > 0.0:
+        f_x, mode = -sin_alpha, SLIP_LEFT
+    elif v_ry > 0.0 and v_rx * v_py - v_ry * v_px < 0.0:
+        f_x, mode = sin_alpha, SLIP_RIGHT
+    else:
+        v_x, v_y, omega = sticking_twist(v_px, v_py, x_c, y_c, c)
+        return v_x, v_y, omega, 0.0, STICK
+    v_x, v_y, omega = slipping_twist(v_py, f_x, cos_alpha, x_c, y_c, c)
+    v_ox, _ = contact_velocity(v_x, v_y, omega, x_c, y_c)
+    return v_x, v_y, omega, v_px - v_ox, mode  # (12), (14)
+
+
+@numba.njit(cache=True)
+def contact_rates(v_slip: float, omega: float, curvature: float, r: float) -> tuple[float, float]:
+    """Give the rates of the contact along the outline and of its tangent's angle.
+
+    For a flat edge this is (16). On an outline of curvature k the tangent turns with the object
+    and with the contact's travel s, so theta' = omega + k s', and the contact point of the disk
+    travels r theta' backwards: s' = v_slip - r theta'.
+
+    Parameters
+    ----------
+    v_slip : float
+        Velocity of the finger along the tangent relative to the object [m/s].
+    omega : float
+        Angular velocity of the object [rad/s].
+    curvature : float
+        Curvature of the outline at the contact [1/m]: 0 on a flat edge, 1/R on a disk.
+    r : float
+        Radius of the finger's disk [m].
+
+    Returns
+    -------
+    s_dot : float
+        Velocity of the contact along the outline [m/s]; on a flat edge the paper's d'.
+    theta_dot : float
+        Rate of theta [rad/s].
+    """
+    s_dot = (v_slip - omega * r) / (1.0 + curvature * r)  # (16)
+    return s_dot, omega + curvature * s_dot

@@ -1,0 +1,126 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Conducts an experiment: starts the controller once everything is recorded, ends after N steps."""
+
+import sys
+
+from lifecycle_msgs.msg import Transition
+from lifecycle_msgs.srv import ChangeState
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+from rclpy.node import Node
+from rclpy.task import Future
+
+from tactile_push.bags import BagWriter
+from tactile_push.bags.recorder import Recorder
+from tactile_push.nodes.parameters import ConfigurationError, Parameter, declare
+from tactile_push.nodes.process import run
+
+TOPICS = (
+    'tactile',
+    'joint_states',
+    'contact',
+    'finger/cmd_vel',
+    'push_controller/state',
+    'ground_truth/object_pose',
+    'ground_truth/state',
+    '/diagnostics',
+)
+LOOK_PERIOD = 0.05  # [s]
+
+
+class Experiment(Node):
+    """Node: manages `push_controller` and records the topics of a run.
+
+    It prints the number of steps done, a line at a time, for whoever shows the progress.
+    """
+
+    NAME = 'experiment'
+    PARAMETERS = (
+        Parameter('bag', '', '', 'folder that the bag makes, not there yet', read_only=True),
+        Parameter('steps', 600, '', 'control periods to run', 1, 1000000000, read_only=True),
+    )
+
+    def __init__(self) -> None:
+        super().__init__(self.NAME)
+        self._settings = declare(self, self.PARAMETERS)
+        if not self._settings.bag:
+            raise ConfigurationError('parameter bag: expected a folder')
+        try:
+            self._writer = BagWriter(self._settings.bag)
+        except OSError as error:
+            raise ConfigurationError(f'parameter bag: {error}') from None
+        self._recorder = Recorder(self, TOPICS, self._writer)
+        self._controller = self.create_client(ChangeState, 'push_controller/change_state')
+        self._transitions = [Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_ACTIVATE]
+        self._answer: Future | None = None
+        self._steps = 0
+        steady_clock = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = self.create_timer(LOOK_PERIOD, self._look, clock=steady_clock)
+
+    def destroy_node(self) -> None:
+        """Finish the bag and end."""
+        self._recorder.stop()
+        self._writer.close()
+        super().destroy_node()
+
+    def _look(self) -> None:
+        if self._answer is not None and self._answer.done():
+            self._conclude_transition()
+        elif self._transitions:
+            self._advance_transition()
+        else:
+            self._report()
+
+    def _advance_transition(self) -> None:
+        activating = self._transitions[0] != Transition.TRANSITION_CONFIGURE
+        if activating and not self._ready():
+            return
+        if self._answer is None and self._controller.service_is_ready():
+            request = ChangeState.Request(transition=Transition(id=self._transitions[0]))
+            self._answer = self._controller.call_async(request)
+
+    def _conclude_transition(self) -> None:
+        assert self._answer is not None
+        if not self._answer.result().success:
+            self.get_logger().error('push_controller refused to start')
+            self.context.shutdown()
+        self._answer = None
+        self._transitions.pop(0)
+
+    def _ready(self) -> bool:
+        """Tell whether all is recorded and the controller hears the contacts."""
+        contact = self.resolve_topic_name('contact')
+        return (
+            not self._recorder.missing()
+            and self._recorder.counts[contact] > 0
+            and self.count_subscribers(contact) > 1
+        )
+
+    def _report(self) -> None:
+        steps = self._recorder.counts[self.resolve_topic_name('finger/cmd_vel')]
+        if steps != self._steps:
+            self._steps = steps
+            print(steps, flush=True)
+        if steps > self._settings.steps:
+            self.context.shutdown()
+
+
+def main() -> int:
+    """Run the node as a process."""
+    return run(Experiment)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,97 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""The rig as RViz shows it, in the frame `finger_disk`."""
+
+from geometry_msgs.msg import Point, Vector3
+from rclpy.time import Time
+from std_msgs.msg import ColorRGBA
+from visualization_msgs.msg import Marker, MarkerArray
+
+from tactile_push.mechanics import Disk
+from tactile_push.simulation import Rig
+from tactile_push.tactile import quaternion_of_yaw
+
+HEIGHT = 0.02  # of what stands on the belt [m]
+STEEL = ColorRGBA(r=0.55, g=0.60, b=0.68, a=1.0)
+RUBBER = ColorRGBA(r=0.15, g=0.15, b=0.18, a=1.0)
+BELT = ColorRGBA(r=0.80, g=0.78, b=0.70, a=1.0)
+NORMAL = ColorRGBA(r=0.10, g=0.45, b=0.85, a=1.0)
+CONE = ColorRGBA(r=0.95, g=0.70, b=0.10, a=1.0)
+PUSH = ColorRGBA(r=0.85, g=0.15, b=0.15, a=1.0)
+
+
+def rig_markers(rig: Rig, stamp: Time) -> MarkerArray:
+    """Draw finger, object, belt and, in contact, the normal, friction cone and push ray.
+
+    Parameters
+    ----------
+    rig : Rig
+        The rig.
+    stamp : Time
+        Its time.
+
+    Returns
+    -------
+    MarkerArray
+        One namespace a thing.
+    """
+    pose = rig.object_in_finger_disk
+    body = _marker(stamp, 'object', Marker.CYLINDER, STEEL)
+    body.pose.position.x, body.pose.position.y, body.pose.position.z = pose.x, pose.y, HEIGHT / 2
+    body.pose.orientation.z, body.pose.orientation.w = quaternion_of_yaw(pose.angle)
+    outline = rig.config.outline
+    if isinstance(outline, Disk):
+        body.scale = Vector3(x=2 * outline.radius, y=2 * outline.radius, z=HEIGHT)
+    else:
+        body.type = Marker.CUBE
+        body.scale = Vector3(x=outline.length, y=2 * outline.l, z=HEIGHT)
+    finger = _marker(stamp, 'finger', Marker.SPHERE, RUBBER)
+    finger.pose.position.z = HEIGHT / 2
+    finger.scale = Vector3(
+        x=2 * rig.config.radius, y=2 * rig.config.radius, z=2 * rig.config.radius
+    )
+    belt = _marker(stamp, 'belt', Marker.CUBE, BELT)
+    belt.pose.position.z = -0.001
+    belt.scale = Vector3(x=0.3, y=0.4, z=0.002)
+    rays = [
+        _marker(stamp, 'contact_normal', Marker.ARROW, NORMAL),
+        _marker(stamp, 'friction_cone', Marker.LINE_LIST, CONE),
+        _marker(stamp, 'push_ray', Marker.ARROW, PUSH),
+    ]
+    if rig.touching:
+        direction = rig.contact_directions
+        start = _point(direction['normal'], rig.config.radius)
+        rays[0].points = [start, _point(direction['normal'], 0.04, start)]
+        left, right = (_point(direction[side], 0.03, start) for side in ('left', 'right'))
+        rays[1].points = [start, left, start, right]
+        rays[2].points = [start, _point(direction['push'], 0.05, start)]
+        for ray in rays:
+            ray.scale = Vector3(x=0.0015, y=0.004, z=0.0)
+    else:
+        for ray in rays:
+            ray.action = Marker.DELETE
+    return MarkerArray(markers=[belt, body, finger, *rays])
+
+
+def _marker(stamp: Time, namespace: str, kind: int, color: ColorRGBA) -> Marker:
+    marker = Marker(ns=namespace, type=kind, action=Marker.ADD, color=color)
+    marker.header.frame_id = 'finger_disk'
+    marker.header.stamp = stamp.to_msg()
+    marker.pose.orientation.w = 1.0
+    return marker
+
+
+def _point(direction: tuple[float, float], length: float, start: Point | None = None) -> Point:
+    origin = start or Point(z=HEIGHT / 2)
+    return Point(x=origin.x + length * direction[0], y=origin.y + length * direction[1], z=origin.z)

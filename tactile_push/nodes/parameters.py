@@ -1,0 +1,170 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""One declaration a parameter: type, default, unit, range, description."""
+
+import difflib
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any
+
+import rclpy.parameter
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    SetParametersResult,
+)
+from rclpy.exceptions import ParameterException
+from rclpy.node import Node
+
+
+class ConfigurationError(Exception):
+    """A node cannot start as it was asked to; the message is for the person who asked."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter of a node.
+
+    Parameters
+    ----------
+    name : str
+        Its name.
+    default : bool, int, float, str or list
+        Its value unless somebody says otherwise; the type of all its values.
+    unit : str
+        Unit for people, '' if there is none.
+    description : str
+        What it is, in a few words.
+    lower, upper : float or int, optional
+        Closed range of a number.
+    choices : tuple of str, optional
+        All values that a text may have.
+    read_only : bool, optional
+        Whether it is fixed once the node runs.
+    """
+
+    name: str
+    default: Any
+    unit: str
+    description: str
+    lower: float = -math.inf
+    upper: float = math.inf
+    choices: tuple[str, ...] = ()
+    read_only: bool = False
+
+    def expected(self) -> str:
+        """Say what a value has to be."""
+        if self.choices:
+            return 'one of ' + ', '.join(self.choices)
+        kind = {bool: 'true or false', int: 'a whole number', float: 'a number', str: 'a text'}.get(
+            type(self.default), 'a list of texts'
+        )
+        unit = f' [{self.unit}]' if self.unit else ''
+        if type(self.default) is float:
+            kind = 'a number with a decimal point'
+        if isinstance(self.default, bool) or not isinstance(self.default, int | float):
+            return kind + unit
+        return f'{kind}{unit} from {self.lower:g} to {self.upper:g}'
+
+    def descriptor(self) -> ParameterDescriptor:
+        """Give the descriptor that `ros2 param describe` shows."""
+        unit = f' [{self.unit}]' if self.unit else ''
+        descriptor = ParameterDescriptor(
+            name=self.name, description=self.description + unit, read_only=self.read_only
+        )
+        if self.choices:
+            descriptor.additional_constraints = self.expected()
+        if isinstance(self.default, float):
+            descriptor.floating_point_range = [
+                FloatingPointRange(from_value=float(self.lower), to_value=float(self.upper))
+            ]
+        elif isinstance(self.default, int) and not isinstance(self.default, bool):
+            descriptor.integer_range = [
+                IntegerRange(from_value=int(self.lower), to_value=int(self.upper))
+            ]
+        return descriptor
+
+
+def declare(
+    node: Node,
+    parameters: Sequence[Parameter],
+    changed: Callable[[], None] = lambda: None,
+) -> SimpleNamespace:
+    """Declare a node's parameters and keep their values at hand.
+
+    Parameters
+    ----------
+    node : Node
+        The node.
+    parameters : sequence of Parameter
+        All its parameters.
+    changed : callable, optional
+        Called after values changed at run time.
+
+    Returns
+    -------
+    SimpleNamespace
+        The values by name, always the present ones.
+
+    Raises
+    ------
+    ConfigurationError
+        If a value from the command line or a file is refused, or a name looks like a slip.
+    """
+    values = SimpleNamespace()
+    choices = {parameter.name: parameter for parameter in parameters if parameter.choices}
+
+    def check(proposed: list[rclpy.parameter.Parameter]) -> SetParametersResult:
+        for parameter in proposed:
+            known = choices.get(parameter.name)
+            if known is not None and parameter.value not in known.choices:
+                return SetParametersResult(
+                    successful=False,
+                    reason=f'{parameter.name}: expected {known.expected()}, '
+                    f'got {parameter.value!r}',
+                )
+        return SetParametersResult(successful=True)
+
+    def take(accepted: list[rclpy.parameter.Parameter]) -> None:
+        names = {parameter.name for parameter in parameters}
+        mine = [parameter for parameter in accepted if parameter.name in names]
+        for parameter in mine:
+            setattr(values, parameter.name, parameter.value)
+        if mine:
+            changed()
+
+    node.add_on_set_parameters_callback(check)
+    overrides = node._parameter_overrides  # rclpy has no public way to see what nobody declares
+    for parameter in parameters:
+        try:
+            value = node.declare_parameter(
+                parameter.name, parameter.default, parameter.descriptor()
+            ).value
+        except ParameterException:
+            given = overrides[parameter.name].value
+            raise ConfigurationError(
+                f'parameter {parameter.name}: expected {parameter.expected()}, got {given!r}'
+            ) from None
+        setattr(values, parameter.name, value)
+    for name in overrides:
+        if not node.has_parameter(name) and not name.startswith('qos_overrides.'):
+            similar = difflib.get_close_matches(name, list(vars(values)), n=1, cutoff=0.5)
+            if similar:
+                raise ConfigurationError(f'parameter {name}: unknown, did you mean {similar[0]}?')
+            node.get_logger().warning(f'parameter {name}: unknown, so it does nothing')
+    node.add_post_set_parameters_callback(take)
+    return values

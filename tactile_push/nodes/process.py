@@ -1,0 +1,114 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""A node as a process: starts, spins, and ends without a traceback."""
+
+import signal
+import sys
+from types import FrameType
+
+import rclpy
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+
+from tactile_push.nodes.parameters import ConfigurationError
+
+SLICE = 0.05  # longest time between a signal and its effect [s]
+
+
+def autostart(node: LifecycleNode) -> None:
+    """Configure and activate a managed node without a lifecycle manager.
+
+    Parameters
+    ----------
+    node : LifecycleNode
+        The node, unconfigured.
+
+    Raises
+    ------
+    ConfigurationError
+        If one of the transitions fails; the node has logged why.
+    """
+    for transition in (node.trigger_configure, node.trigger_activate):
+        if transition() != TransitionCallbackReturn.SUCCESS:
+            raise ConfigurationError('could not start, see above')
+
+
+def run(node_class: type[Node]) -> int:
+    """Run a node until SIGINT, SIGTERM or the end of its context.
+
+    The signals are taken here rather than by rclpy, whose handler ends the context before a last
+    command could be sent.
+
+    Parameters
+    ----------
+    node_class : class
+        The node's class, with its `NAME` and its `PARAMETERS`.
+
+    Returns
+    -------
+    int
+        Exit status: 0 done, 2 bad input.
+    """
+    if {'-h', '--help'} & set(sys.argv[1:]):
+        print(_help(node_class))
+        return 0
+    stopping = False
+
+    def stop(signum: int, frame: FrameType | None) -> None:
+        nonlocal stopping
+        stopping = True
+
+    signal.signal(signal.SIGINT, stop)
+    signal.signal(signal.SIGTERM, stop)
+    try:
+        rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
+    except Exception as error:  # rcl's own exception types are not public
+        return _refuse(node_class, ' '.join(str(error).split()))
+    try:
+        node = node_class()
+    except ConfigurationError as error:
+        rclpy.try_shutdown()
+        return _refuse(node_class, str(error))
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    try:
+        while not stopping and rclpy.ok():
+            executor.spin_once(timeout_sec=SLICE)
+    except ExternalShutdownException:
+        pass
+    finally:
+        executor.shutdown()
+        node.destroy_node()
+        rclpy.try_shutdown()
+    return 0
+
+
+def _refuse(node_class: type[Node], reason: str) -> int:
+    print(f'{node_class.NAME}: {reason}', file=sys.stderr)
+    return 2
+
+
+def _help(node_class: type[Node]) -> str:
+    lines = [
+        f'usage: {node_class.NAME} [--ros-args -p NAME:=VALUE … --params-file FILE …]',
+        '',
+        'parameters:',
+    ]
+    for parameter in node_class.PARAMETERS:
+        unit = f' [{parameter.unit}]' if parameter.unit else ''
+        lines.append(f'  {parameter.name} := {parameter.default}')
+        lines.append(f'      {parameter.description}{unit}; {parameter.expected()}')
+    return '\n'.join(lines)

@@ -1,0 +1,177 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""The package's nodes as processes, in a ROS domain of their own that ends at this machine."""
+
+import fcntl
+import os
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import IO, Any
+
+DOMAINS = range(1, 101)  # ids that need no port among the ephemeral ones
+STOP_TIMEOUT = 5.0  # for a process to end after SIGINT before it is killed [s]
+
+
+class NodeProcesses:
+    """Starts nodes and, on leaving the `with` block, stops all of them.
+
+    The nodes talk among themselves alone: discovery stays on this machine, and no two of these
+    objects share a ROS domain, whichever processes they live in.
+
+    Parameters
+    ----------
+    folder : path
+        Where each node's output goes, as NAME.log, and rcl's own logs.
+
+    Attributes
+    ----------
+    environment : dict of str to str
+        Environment of every process.
+    running : dict of str to subprocess.Popen
+        The processes by name.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._domain, self._lock = _claim_domain()
+        self.environment = {
+            **os.environ,
+            'ROS_DOMAIN_ID': str(self._domain),
+            'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+            'ROS_LOG_DIR': str(folder / 'ros_log'),
+        }
+        self.running: dict[str, subprocess.Popen[bytes]] = {}
+
+    def __enter__(self) -> 'NodeProcesses':
+        """Enter the block after which the processes end."""
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        """Stop all processes."""
+        self.stop()
+
+    @property
+    def domain(self) -> int:
+        """ROS domain of the nodes."""
+        return self._domain
+
+    def start(
+        self,
+        node: str,
+        parameters: Mapping[str, Any] | None = None,
+        *,
+        config: Path | None = None,
+        name: str | None = None,
+        arguments: tuple[str, ...] = (),
+    ) -> subprocess.Popen[bytes]:
+        """Start a node.
+
+        Parameters
+        ----------
+        node : str
+            One of the package's nodes.
+        parameters : mapping of str to object, optional
+            Values of its parameters; they take precedence over the file's.
+        config : path, optional
+            Parameter file.
+        name : str, optional
+            What the process is called here, if `node` runs more than once.
+        arguments : tuple of str, optional
+            More ROS arguments.
+
+        Returns
+        -------
+        subprocess.Popen
+            The process.
+        """
+        command = [sys.executable, '-m', f'tactile_push.nodes.{node}', '--ros-args', *arguments]
+        if config is not None:
+            command += ['--params-file', str(config)]
+        for key, value in (parameters or {}).items():
+            command += ['-p', f'{key}:={yaml_value(value)}']
+        name = name or node
+        with self.log(name).open('ab') as log:
+            process = self._spawn(command, log)
+        self.running[name] = process
+        return process
+
+    def log(self, name: str) -> Path:
+        """Give the file that holds what a process has said."""
+        return self._folder / f'{name}.log'
+
+    def stop(self) -> None:
+        """Interrupt all processes and wait for their end."""
+        for process in self.running.values():
+            if process.poll() is None:
+                process.send_signal(signal.SIGINT)
+        for process in self.running.values():
+            try:
+                process.wait(STOP_TIMEOUT)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+        self._lock.close()
+
+    def _spawn(self, command: list[str], log: IO[bytes]) -> subprocess.Popen[bytes]:
+        # A session of their own: Ctrl-C at the terminal is for the parent, which stops them.
+        return subprocess.Popen(
+            command,
+            env=self.environment,
+            stdin=subprocess.DEVNULL,
+            stdout=log,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
+
+
+def yaml_value(value: Any) -> str:
+    """Write a parameter's value as the command line takes it.
+
+    Parameters
+    ----------
+    value : bool, int, float, str or list of str
+        The value.
+
+    Returns
+    -------
+    str
+        YAML on one line.
+    """
+    if isinstance(value, bool):
+        return 'true' if value else 'false'
+    if isinstance(value, float):
+        text = repr(value)
+        return {'inf': '.inf', '-inf': '-.inf', 'nan': '.nan'}.get(text, text)
+    if isinstance(value, list):
+        return '[' + ', '.join(yaml_value(item) for item in value) + ']'
+    return str(value)
+
+
+def _claim_domain() -> tuple[int, IO[bytes]]:
+    """Find a ROS domain that nobody uses through this function, and a lock that keeps it so."""
+    for domain in random.sample(DOMAINS, len(DOMAINS)):
+        path = Path(tempfile.gettempdir()) / f'tactile_push_domain_{domain}.{os.getuid()}.lock'
+        lock = path.open('wb')
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            lock.close()
+            continue
+        return domain, lock
+    raise RuntimeError('all ROS domains are in use')

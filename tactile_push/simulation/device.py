@@ -1,0 +1,156 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""The device end of the wire: where the simulated sensor's bytes come out."""
+
+import contextlib
+import errno
+import os
+import pty
+import socket
+import tty
+from typing import Protocol
+from urllib.parse import urlsplit
+
+
+class DeviceServer(Protocol):
+    """Something that a sensor driver can open and that sends it bytes."""
+
+    def send(self, data: bytes) -> None:
+        """Send bytes to whoever listens; drop them if nobody does or if he does not keep up."""
+
+    def close(self) -> None:
+        """Stop serving."""
+
+
+def serve(device: str) -> DeviceServer:
+    """Start to serve where a sensor driver will connect.
+
+    Parameters
+    ----------
+    device : str
+        socket://host:port to listen on TCP, or a path at which a pseudo terminal appears.
+
+    Returns
+    -------
+    DeviceServer
+        The open server.
+
+    Raises
+    ------
+    ValueError
+        If the device is neither.
+    OSError
+        If the address or path is in use or not ours.
+    """
+    url = urlsplit(device)
+    if url.scheme == 'socket':
+        try:
+            host, port = url.hostname, url.port
+        except ValueError:
+            host, port = None, None
+        if not host or port is None:
+            raise ValueError(f'device: expected socket://host:port, got {device!r}')
+        return TcpServer(host, port)
+    if url.scheme or not os.path.isabs(device):
+        raise ValueError(f'device: expected socket://host:port or an absolute path, got {device!r}')
+    return PseudoTerminal(device)
+
+
+class TcpServer:
+    """Sends to every TCP client.
+
+    Parameters
+    ----------
+    host : str
+        Address to listen on.
+    port : int
+        Port to listen on.
+
+    Raises
+    ------
+    OSError
+        If the address is in use or not ours.
+    """
+
+    def __init__(self, host: str, port: int) -> None:
+        try:
+            self._listener = socket.create_server((host, port))
+        except OSError as error:
+            raise OSError(error.errno, f'{host}:{port}: {os.strerror(error.errno or 0)}') from None
+        self._listener.setblocking(False)
+        self._clients: list[socket.socket] = []
+
+    def send(self, data: bytes) -> None:
+        """Send bytes to all clients, new ones included."""
+        self._accept()
+        for client in list(self._clients):
+            try:
+                client.send(data)
+            except BlockingIOError:
+                pass
+            except OSError:
+                client.close()
+                self._clients.remove(client)
+
+    def close(self) -> None:
+        """Close all connections."""
+        for server_or_client in (self._listener, *self._clients):
+            server_or_client.close()
+
+    def _accept(self) -> None:
+        try:
+            client, _ = self._listener.accept()
+        except BlockingIOError:
+            return
+        client.setblocking(False)
+        client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._clients.append(client)
+
+
+class PseudoTerminal:
+    """A serial line without wires, reached through a link at a path of our choice.
+
+    Parameters
+    ----------
+    path : str
+        Where the link appears. A dangling link, left by a killed process, is replaced.
+
+    Raises
+    ------
+    OSError
+        If something else is there already or the folder cannot be written.
+    """
+
+    def __init__(self, path: str) -> None:
+        if os.path.exists(path) or (os.path.lexists(path) and not os.path.islink(path)):
+            raise OSError(errno.EEXIST, f'{path}: {os.strerror(errno.EEXIST)}')
+        if os.path.lexists(path):
+            os.unlink(path)
+        self._path = path
+        # The far end stays open here, so that the line is there before and between its readers.
+        self._near, self._far = pty.openpty()
+        tty.setraw(self._far)
+        os.set_blocking(self._near, False)
+        os.symlink(os.ttyname(self._far), path)
+
+    def send(self, data: bytes) -> None:
+        """Send bytes down the line; what nobody reads is lost once the line is full."""
+        with contextlib.suppress(BlockingIOError):
+            os.write(self._near, data)
+
+    def close(self) -> None:
+        """Remove the link and the line."""
+        os.unlink(self._path)
+        os.close(self._near)
+        os.close(self._far)

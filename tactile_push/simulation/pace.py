@@ -1,0 +1,122 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""When simulated time may go on."""
+
+import math
+
+
+class Pace:
+    """Paces simulated time: no faster than asked, and never ahead of the loop it closes.
+
+    Simulated time waits for two things. It does not pass the moment at which the next command is
+    due before that command is there. And it does not go on before the last reading has become a
+    contact with the reading's own stamp: a driver that reads late would stamp with a later time
+    than the sensor's. So a loaded machine makes an experiment slower, not different. What is
+    overdue by `patience` of wall time is not waited for any more until it comes again: somebody
+    has gone.
+
+    Parameters
+    ----------
+    real_time_factor : float
+        Simulated seconds a second, at the most; at most 1 until there are contacts and commands.
+    control_period : float
+        Simulated time between commands [s].
+    patience : float
+        How long time stands still for something overdue [s of wall time].
+    """
+
+    def __init__(self, real_time_factor: float, control_period: float, patience: float) -> None:
+        self._factor = real_time_factor
+        self._control_period = control_period
+        self._patience = patience
+        self._next_wall = -math.inf
+        self._held_since = math.nan
+        self._command = math.nan  # not waited for
+        self._contact = math.nan  # not waited for
+        self._reading = math.nan
+
+    @property
+    def commanded(self) -> bool:
+        """Whether commands come in time."""
+        return not math.isnan(self._command)
+
+    def command(self, stamp: float, now: float) -> None:
+        """Take note of a command.
+
+        Parameters
+        ----------
+        stamp : float
+            Stamp of the command [s of simulated time]. One that cannot be that of the last tick
+            is taken for `now`: its sender has another clock.
+        now : float
+            Simulated time [s].
+        """
+        self._command = stamp if now - self._control_period <= stamp <= now else now
+
+    def reading(self, now: float) -> None:
+        """Take note that the sensor sent a reading from which a contact has to follow.
+
+        Parameters
+        ----------
+        now : float
+            Simulated time [s].
+        """
+        self._reading = now
+
+    def contact(self, stamp: float) -> None:
+        """Take note of a contact.
+
+        Parameters
+        ----------
+        stamp : float
+            Stamp of the contact [s of simulated time].
+        """
+        self._contact = stamp
+
+    def may_reach(self, time: float, step: float, wall: float) -> bool:
+        """Decide whether simulated time may go on now.
+
+        Parameters
+        ----------
+        time : float
+            Simulated time that the next step would reach [s].
+        step : float
+            Length of the step [s].
+        wall : float
+            Wall time [s].
+
+        Returns
+        -------
+        bool
+            Whether to step.
+        """
+        if wall < self._next_wall:
+            return False
+        due = self._command + self._control_period
+        command_overdue = time > due + step / 2.0
+        contact_overdue = self._contact < self._reading - step / 2.0
+        if command_overdue or contact_overdue:
+            if math.isnan(self._held_since):
+                self._held_since = wall
+            if wall - self._held_since < self._patience:
+                return False
+            if command_overdue:
+                self._command = math.nan
+            if contact_overdue:
+                self._contact = math.nan
+        self._held_since = math.nan
+        looping = self.commanded and not math.isnan(self._contact)
+        pause = step / (self._factor if looping else min(self._factor, 1.0))
+        self._next_wall = max(self._next_wall + pause, wall)
+        return True

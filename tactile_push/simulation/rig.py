@@ -1,0 +1,318 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""The rig that stands in for the hardware: belt, object, finger and sensor (Section V.A)."""
+
+import math
+from dataclasses import dataclass
+
+from tactile_push.mechanics import (
+    FREE,
+    MODES,
+    Disk,
+    Edge,
+    Outline,
+    Pose,
+    check_friction,
+    friction_cone,
+    push,
+)
+from tactile_push.tactile import (
+    NO_CONTACT,
+    FingerPose,
+    OutOfReachError,
+    PlanarFinger,
+    Reading,
+    reading_of_contact,
+)
+
+TOUCH = 1e-9  # a gap below this is a contact [m]
+
+
+@dataclass(frozen=True)
+class RigConfig:
+    """What the rig is made of and where it starts.
+
+    The finger starts with its pole along the belt and touches the object.
+
+    Parameters
+    ----------
+    outline : Edge or Disk
+        What the finger pushes.
+    c : float
+        Ratio m_max / f_max of the object's support [m].
+    mu_c : float
+        Coefficient of friction between finger and object, 0 to infinity.
+    theta : float
+        Angle of the pushed edge at the start [rad].
+    d : float
+        Contact along the edge at the start [m].
+    belt_speed : float
+        Speed of the belt, v_y [m/s].
+    radius : float
+        Effective radius of the finger's disk [m].
+    finger : PlanarFinger
+        The finger's links.
+
+    Raises
+    ------
+    ValueError
+        If a number is out of its range or the start is no contact that pushes.
+    """
+
+    outline: Outline
+    c: float
+    mu_c: float
+    theta: float
+    d: float
+    belt_speed: float = 0.005
+    radius: float = 0.0135
+    finger: PlanarFinger = PlanarFinger(0.06, 0.08, math.pi / 2.0)
+
+    def __post_init__(self) -> None:
+        for name in ('c', 'belt_speed', 'radius'):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value > 0.0):
+                raise ValueError(f'{name}: expected a positive finite number, got {value}')
+        check_friction(self.mu_c)
+        if not abs(self.theta) < math.pi / 2.0:
+            raise ValueError(
+                f'theta: expected an edge that faces the belt, |theta| < pi/2 rad, got {self.theta}'
+            )
+        if not self.outline.bears(self.d):
+            raise ValueError(f'd: expected a contact on the edge, got {self.d} m')
+
+
+def paper_block(
+    theta: float = math.radians(20.0),
+    d: float = -0.006,
+    c: float = 0.0187,
+    mu_c: float = math.inf,
+) -> RigConfig:
+    """Give the paper's rectangular steel block, 5 cm x 4.75 cm, pushed at the 5 cm edge.
+
+    Parameters
+    ----------
+    theta : float, optional
+        Angle of the edge at the start [rad]; fig. 8's by default.
+    d : float, optional
+        Contact along the edge at the start [m]; fig. 8's by default.
+    c : float, optional
+        Ratio m_max / f_max [m]; uniform support by default.
+    mu_c : float, optional
+        Coefficient of friction between finger and object.
+
+    Returns
+    -------
+    RigConfig
+        The rig.
+    """
+    return RigConfig(Edge(length=0.05, l=0.02375), c, mu_c, theta, d)
+
+
+def paper_disk(theta: float = math.radians(20.0), mu_c: float = math.inf) -> RigConfig:
+    """Give the paper's steel disk of radius 2.85 cm, its support uniform.
+
+    Parameters
+    ----------
+    theta : float, optional
+        Angle of the tangent at the start [rad].
+    mu_c : float, optional
+        Coefficient of friction between finger and object.
+
+    Returns
+    -------
+    RigConfig
+        The rig.
+    """
+    return RigConfig(Disk(radius=0.0285), 0.019, mu_c, theta, 0.0)
+
+
+class Rig:
+    """The rig in motion.
+
+    Parameters
+    ----------
+    config : RigConfig
+        What the rig is made of and where it starts.
+
+    Attributes
+    ----------
+    finger_x, finger_y : float
+        Centre of the finger's disk on the belt, from where it started [m]; the belt carries
+        everything on it in -y, so on the belt the finger moves at +v_y.
+    object_pose : Pose
+        Centre of mass and orientation of the object on the belt.
+    theta, s : float
+        Angle of the edge or tangent [rad] nearest to the finger, position along it [m].
+    gap : float
+        Distance between finger and object [m]; 0 in contact, infinite beside the edge.
+    mode : int
+        How the contact moved at the end of the last step: an index of `MODES`.
+    phi : float
+        Direction of the finger's motion on the belt in the last step [rad].
+    at_workspace_limit : bool
+        Whether the finger could not follow its velocity in the last step.
+    """
+
+    def __init__(self, config: RigConfig) -> None:
+        self.config = config
+        self._friction_cone = friction_cone(config.mu_c)
+        self._home = config.finger.forward(math.pi / 2.0, -math.pi / 2.0)
+        self.finger_x = 0.0
+        self.finger_y = 0.0
+        self.theta = config.theta
+        self.s = config.d
+        self.gap = 0.0
+        self.mode = FREE
+        self.phi = math.pi / 2.0
+        self.at_workspace_limit = False
+        self.object_pose = config.outline.pose(self.theta, self.s, 0.0, 0.0, config.radius)
+
+    @property
+    def d(self) -> float:
+        """The paper's d of the contact [m]."""
+        return self.config.outline.d(self.s)
+
+    @property
+    def mode_name(self) -> str:
+        """The contact's mode as a word."""
+        return MODES[self.mode]
+
+    @property
+    def joints(self) -> tuple[float, float]:
+        """Angles of the finger's two moving joints [rad]."""
+        return self.config.finger.inverse(self._home.x + self.finger_x, self._home.y)
+
+    @property
+    def finger_pose(self) -> FingerPose:
+        """Pose of the finger tip in `finger_base`."""
+        return self.config.finger.forward(*self.joints)
+
+    @property
+    def object_in_finger_disk(self) -> Pose:
+        """Pose of the object in the frame `finger_disk`."""
+        pose = self.object_pose
+        return Pose(pose.x - self.finger_x, pose.y - self.finger_y, pose.angle)
+
+    @property
+    def touching(self) -> bool:
+        """Whether finger and object touch."""
+        return self.gap < TOUCH
+
+    @property
+    def contact_directions(self) -> dict[str, tuple[float, float]]:
+        """Unit vectors at the contact: 'normal', 'left' and 'right' (friction cone), 'push'."""
+        normal = self.theta + math.pi / 2.0
+        cos_alpha, sin_alpha = self._friction_cone
+        alpha = math.atan2(sin_alpha, cos_alpha)
+        angles = {
+            'normal': normal,
+            'left': normal + alpha,
+            'right': normal - alpha,
+            'push': self.phi,
+        }
+        return {name: (math.cos(angle), math.sin(angle)) for name, angle in angles.items()}
+
+    def reading(self) -> Reading:
+        """Read the sensor.
+
+        Returns
+        -------
+        Reading
+            Azimuth and elevation [rad]; NaN without contact or behind the hemisphere.
+        """
+        if not self.touching:
+            return NO_CONTACT
+        return reading_of_contact(self.theta, self.finger_pose.psi) or NO_CONTACT
+
+    def step(self, v_x: float, duration: float, belt_running: bool = True) -> None:
+        """Let the finger and the belt move for a while.
+
+        Parameters
+        ----------
+        v_x : float
+            Velocity of the finger across the belt [m/s].
+        duration : float
+            How long [s].
+        belt_running : bool, optional
+            Whether the belt moves.
+        """
+        try:
+            self.config.finger.inverse(self._home.x + self.finger_x + v_x * duration, self._home.y)
+            self.at_workspace_limit = False
+        except OutOfReachError:
+            self.at_workspace_limit = True
+            v_x = 0.0
+        v_y = self.config.belt_speed if belt_running else 0.0
+        speed = math.hypot(v_x, v_y)
+        if speed == 0.0:
+            self.mode = FREE
+            return
+        self.phi = math.atan2(v_y, v_x)
+        remaining = duration
+        if self.touching and self._leaves():
+            # Moving away does not end in a contact with the same outline, which is convex.
+            self._move(v_x, v_y, remaining)
+        else:
+            remaining -= self._approach(v_x, v_y, speed, remaining)
+            self._push(v_x, v_y, speed, remaining)
+
+    def _leaves(self) -> bool:
+        return math.sin(self.phi - self.theta) <= 0.0
+
+    def _move(self, v_x: float, v_y: float, duration: float) -> None:
+        """Move the finger while nothing is pushed."""
+        self.finger_x += v_x * duration
+        self.finger_y += v_y * duration
+        self.mode = FREE
+        self.theta, self.s, self.gap = self.config.outline.nearest(
+            self.object_pose, self.finger_x, self.finger_y, self.config.radius
+        )
+
+    def _approach(self, v_x: float, v_y: float, speed: float, duration: float) -> float:
+        """Move the finger until it touches, by conservative advancement; give the time taken."""
+        elapsed = 0.0
+        while not self.touching and elapsed < duration:
+            advance = min(max(self.gap, TOUCH) / speed, duration - elapsed)
+            self._move(v_x, v_y, advance)
+            elapsed += advance
+        return elapsed
+
+    def _push(self, v_x: float, v_y: float, speed: float, duration: float) -> None:
+        """Push the object that the finger touches."""
+        if duration <= 0.0:
+            return
+        outline = self.config.outline
+        self.theta, self.s, elapsed, self.mode = push(
+            self.theta,
+            self.s,
+            speed,
+            self.phi,
+            duration,
+            outline.curvature,
+            outline.l,
+            self.config.c,
+            *self._friction_cone,
+            self.config.radius,
+        )
+        self.finger_x += v_x * elapsed
+        self.finger_y += v_y * elapsed
+        self.object_pose = outline.pose(
+            self.theta, self.s, self.finger_x, self.finger_y, self.config.radius
+        )
+        self.gap = 0.0
+        if not outline.bears(self.s):
+            self.gap, self.mode = math.inf, FREE
+        if elapsed < duration:
+            self._move(v_x, v_y, duration - elapsed)

@@ -1,0 +1,94 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""An experiment without clocks and processes: the same rig, sensor geometry and law."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from tactile_push.control import PushLaw, finger_velocity
+from tactile_push.mechanics import MODES
+from tactile_push.simulation.rig import Rig, RigConfig
+from tactile_push.tactile import ReadingRejectedError, contact_of_reading
+
+UPRIGHT = 1e-9  # |cos(elevation) sin(azimuth)| of the simulated face, but for rounding
+
+
+@dataclass(frozen=True)
+class Rollout:
+    """What happened in an experiment; index k is the start of control period k.
+
+    Parameters
+    ----------
+    theta : ndarray, shape (K + 1,)
+        Angle of the pushed edge [rad].
+    phi : ndarray, shape (K + 1,)
+        Push angle that drives period k [rad].
+    d : ndarray, shape (K + 1,)
+        Contact along the edge [m].
+    x, y : ndarray, shape (K + 1,)
+        Centre of mass on the belt, the finger's disk starting at the origin [m].
+    mode : tuple of str, length K + 1
+        How the contact moved in period k: 'stick', 'slip_left', 'slip_right' or 'free'; the last
+        one is that of the period before it.
+    end : str
+        Why it ended: 'done', or the reason for which there is no contact any more.
+    """
+
+    theta: npt.NDArray[np.float64]
+    phi: npt.NDArray[np.float64]
+    d: npt.NDArray[np.float64]
+    x: npt.NDArray[np.float64]
+    y: npt.NDArray[np.float64]
+    mode: tuple[str, ...]
+    end: str
+
+
+def rollout(config: RigConfig, law: PushLaw, steps: int, period: float = 0.1) -> Rollout:
+    """Run the control law on the rig.
+
+    Parameters
+    ----------
+    config : RigConfig
+        The rig and where it starts.
+    law : PushLaw
+        The control law; it starts from its present push angle.
+    steps : int
+        Number of control periods.
+    period : float, optional
+        Control period [s].
+
+    Returns
+    -------
+    Rollout
+        The trajectory, shorter than `steps` if contact is lost.
+    """
+    rig = Rig(config)
+    rows = []
+    modes = []
+    end = 'done'
+    for k in range(steps + 1):
+        try:
+            contact = contact_of_reading(rig.reading(), rig.finger_pose.psi, config.radius, UPRIGHT)
+        except ReadingRejectedError as rejected:
+            end = str(rejected)
+            break
+        phi = law.update(contact.theta)
+        rows.append((contact.theta, phi, rig.d, rig.object_pose.x, rig.object_pose.y))
+        if k < steps:
+            rig.step(finger_velocity(phi, config.belt_speed), period)
+        modes.append(MODES[rig.mode])
+    theta, phi, d, x, y = np.array(rows).T
+    return Rollout(theta, phi, d, x, y, tuple(modes), end)

@@ -1,0 +1,145 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Kinematics of the planar finger (Section V.A): first joint fixed, two joints move."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+
+class OutOfReachError(ValueError):
+    """A place that the finger cannot reach."""
+
+
+@dataclass(frozen=True)
+class FingerPose:
+    """Pose of the finger tip in `finger_base`.
+
+    Parameters
+    ----------
+    x, y : float
+        Centre of the finger's disk [m].
+    psi : float
+        Angle of the finger tip's pole [rad].
+    """
+
+    x: float
+    y: float
+    psi: float
+
+
+@dataclass(frozen=True)
+class PlanarFinger:
+    """Two links in the plane of motion.
+
+    The first moving joint is the origin of `finger_base`. The second link ends at the centre of
+    the finger's disk and points along the finger tip's pole.
+
+    Parameters
+    ----------
+    proximal_length : float
+        Distance between the two moving joints [m].
+    distal_length : float
+        Distance from the second moving joint to the centre of the disk [m].
+    mount_angle : float
+        Angle of the finger at joint angles zero [rad]: what the fixed joint leaves it at.
+
+    Raises
+    ------
+    ValueError
+        If a length is not positive or a number is not finite.
+    """
+
+    proximal_length: float
+    distal_length: float
+    mount_angle: float
+
+    def __post_init__(self) -> None:
+        for name in ('proximal_length', 'distal_length'):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value > 0.0):
+                raise ValueError(f'{name}: expected a positive length [m], got {value}')
+        if not math.isfinite(self.mount_angle):
+            raise ValueError(f'mount_angle: expected an angle [rad], got {self.mount_angle}')
+
+    def forward(self, proximal: float, distal: float) -> FingerPose:
+        """Find the finger tip's pose at given joint angles.
+
+        Parameters
+        ----------
+        proximal, distal : float
+            Joint angles [rad], counterclockwise.
+
+        Returns
+        -------
+        FingerPose
+            Centre of the disk and angle of the pole.
+        """
+        knuckle = self.mount_angle + proximal
+        psi = pole_angle(self.mount_angle, (proximal, distal))
+        return FingerPose(
+            self.proximal_length * math.cos(knuckle) + self.distal_length * math.cos(psi),
+            self.proximal_length * math.sin(knuckle) + self.distal_length * math.sin(psi),
+            psi,
+        )
+
+    def inverse(self, x: float, y: float) -> tuple[float, float]:
+        """Find the joint angles that bring the disk's centre to a place.
+
+        Of the two solutions it is the one with the second joint bent clockwise, so that the
+        knuckle stays to the left of the belt.
+
+        Parameters
+        ----------
+        x, y : float
+            Centre of the disk in `finger_base` [m].
+
+        Returns
+        -------
+        proximal, distal : float
+            Joint angles [rad].
+
+        Raises
+        ------
+        OutOfReachError
+            If the finger does not reach the place.
+        """
+        a, b = self.proximal_length, self.distal_length
+        bend = (x**2 + y**2 - a**2 - b**2) / (2.0 * a * b)
+        if not abs(bend) <= 1.0:
+            raise OutOfReachError(
+                f'the finger reaches {abs(a - b):.4f} to {a + b:.4f} m from its joint, '
+                f'not ({x:.4f}, {y:.4f}) m'
+            )
+        distal = -math.acos(bend)
+        proximal = math.atan2(y, x) - math.atan2(b * math.sin(distal), a + b * math.cos(distal))
+        return math.remainder(proximal - self.mount_angle, 2.0 * math.pi), distal
+
+
+def pole_angle(mount_angle: float, joint_angles: Iterable[float]) -> float:
+    """Give the angle of the finger tip's pole in `finger_base`.
+
+    Parameters
+    ----------
+    mount_angle : float
+        Angle of the finger at joint angles zero [rad].
+    joint_angles : iterable of float
+        Angles of the moving joints [rad], counterclockwise.
+
+    Returns
+    -------
+    float
+        psi [rad].
+    """
+    return mount_angle + sum(joint_angles)

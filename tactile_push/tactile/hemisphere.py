@@ -1,0 +1,110 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""From the sensor's two angles to the contact in the plane of motion, and back (Section V.A)."""
+
+import math
+from dataclasses import dataclass
+
+from tactile_push.tactile.reading import Reading
+
+
+class ReadingRejectedError(ValueError):
+    """A reading from which no contact in the plane of motion follows; the message is the reason."""
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A contact on the finger's disk, in the frame `finger_disk`.
+
+    Parameters
+    ----------
+    theta : float
+        Angle of the pushed edge [rad], 90 degrees clockwise of the normal into the object.
+    x, y : float
+        Contact point relative to the disk's centre [m].
+    """
+
+    theta: float
+    x: float
+    y: float
+
+
+def contact_of_reading(
+    reading: Reading, psi: float, radius: float, max_out_of_plane: float
+) -> Contact:
+    """Find the contact that a reading tells of.
+
+    Parameters
+    ----------
+    reading : Reading
+        The sensor's azimuth and elevation [rad].
+    psi : float
+        Angle of the finger tip's pole in `finger_base` [rad].
+    radius : float
+        Effective radius of the finger's disk [m].
+    max_out_of_plane : float
+        Bound on |cos(elevation) sin(azimuth)|, the part of the contact's direction that sticks
+        out of the plane of motion: 0 for an upright face.
+
+    Returns
+    -------
+    Contact
+        theta and the contact point.
+
+    Raises
+    ------
+    ReadingRejectedError
+        If there is no contact, an angle lies off the hemisphere, or the contact lies further out
+        of the plane of motion than allowed. The message is the reason in two or three words.
+    """
+    azimuth, elevation = reading.azimuth, reading.elevation
+    if not reading.in_contact:
+        raise ReadingRejectedError('no contact')
+    if not (-math.pi <= azimuth <= math.pi and 0.0 <= elevation <= math.pi / 2.0):
+        raise ReadingRejectedError('off the hemisphere')
+    if not abs(math.cos(elevation) * math.sin(azimuth)) <= max_out_of_plane:
+        raise ReadingRejectedError('out of plane')
+    left = math.cos(elevation) * math.cos(azimuth)
+    normal_angle = psi + math.atan2(left, math.sin(elevation))
+    theta = normalized_angle(normal_angle - math.pi / 2.0)
+    return Contact(theta, radius * math.cos(normal_angle), radius * math.sin(normal_angle))
+
+
+def reading_of_contact(theta: float, psi: float, normal_force: float = math.nan) -> Reading | None:
+    """Find what the sensor reads at an upright face.
+
+    Parameters
+    ----------
+    theta : float
+        Angle of the pushed edge [rad].
+    psi : float
+        Angle of the finger tip's pole in `finger_base` [rad].
+    normal_force : float, optional
+        Force along the normal [N]; NaN where it is not measured.
+
+    Returns
+    -------
+    Reading or None
+        Azimuth and elevation [rad]; None if the contact lies behind the hemisphere.
+    """
+    from_pole = normalized_angle(theta + math.pi / 2.0 - psi)
+    if abs(from_pole) > math.pi / 2.0:
+        return None
+    azimuth = 0.0 if from_pole >= 0.0 else math.pi
+    return Reading(azimuth, math.pi / 2.0 - abs(from_pole), normal_force)
+
+
+def normalized_angle(angle: float) -> float:
+    """Bring an angle [rad] into [-pi, pi]; one that lies there stays as it is, to the bit."""
+    return angle if -math.pi <= angle <= math.pi else math.remainder(angle, 2.0 * math.pi)

@@ -1,0 +1,70 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+EXECUTABLES = {
+    'tactile_push',
+    'sensor_driver',
+    'contact_geometry',
+    'push_controller',
+    'sim_plant',
+    'experiment',
+}
+
+
+def test_colcon_build_gives_runnable_executables(tmp_path: Path):
+    colcon = Path(sys.executable).with_name('colcon')
+    if not colcon.exists():
+        pytest.skip('colcon is not installed')
+    package = tmp_path / 'src' / 'tactile_push'
+    skipped = shutil.ignore_patterns(
+        '.*', '__pycache__', 'out', 'build', 'install', 'log', '*.egg-info'
+    )
+    shutil.copytree(ROOT, package, ignore=skipped)
+    build = subprocess.run(
+        [str(colcon), 'build', '--event-handlers', 'console_direct+'],
+        cwd=tmp_path,
+        env={**os.environ, 'COLCON_LOG_PATH': str(tmp_path / 'log')},
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+    assert build.returncode == 0, build.stdout + build.stderr
+    install = tmp_path / 'install' / 'tactile_push'
+    executables = install / 'lib' / 'tactile_push'
+    assert {file.name for file in executables.iterdir()} == EXECUTABLES
+    share = install / 'share' / 'tactile_push'
+    for file in ('package.xml', 'config/block.yaml', 'config/disk.yaml', 'launch/demo.launch.py'):
+        assert (share / file).exists(), file
+    assert (install / 'share/ament_index/resource_index/packages/tactile_push').exists()
+    (library,) = install.glob('lib/python*/site-packages')
+    environment = {**os.environ, 'PYTHONPATH': str(library)}
+    for name in EXECUTABLES:
+        run = subprocess.run(
+            [str(executables / name), '--help'],
+            cwd=tmp_path,
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=60,
+        )
+        assert run.returncode == 0, run.stderr
+        assert name in run.stdout

@@ -1,0 +1,91 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+import json
+import math
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from mcap.reader import make_reader
+
+COMMAND = [sys.executable, '-m', 'tactile_push.cli', 'demo', '--json']
+
+
+def test_demo_settles_both_rigs_and_leaves_a_picture_and_bags(tmp_path: Path):
+    out = tmp_path / 'out'
+    run = subprocess.run([*COMMAND, '-o', str(out)], capture_output=True, text=True, timeout=180)
+    assert run.returncode == 0, run.stderr
+    rigs = json.loads(run.stdout)['rigs']
+    assert set(rigs) == {'block', 'disk'}
+    # Of the pure rollout, computed independently for fig. 8: within 3 degrees from step 192 on.
+    assert 187 <= rigs['block']['settle_step'] <= 197
+    assert math.degrees(rigs['block']['theta_final']) == pytest.approx(-10.0, abs=0.5)
+    assert math.degrees(rigs['block']['phi_final']) == pytest.approx(82.6, abs=1.0)
+    assert rigs['block']['d_final'] == pytest.approx(0.00107, abs=0.0002)
+    assert rigs['disk']['settle_step'] is not None
+    for rig in rigs.values():
+        assert rig['d_lower'] <= rig['d_upper']
+        assert rig['ticks_lost'] == 0
+        assert rig['wall_seconds'] > 0.0
+    # The true contact is inside the bounds by (17) but for the last bit of turning.
+    block = rigs['block']
+    assert block['d_lower'] - 1e-4 <= block['d_final'] <= block['d_upper'] + 1e-4
+    assert (out / 'history.png').read_bytes().startswith(b'\x89PNG')
+    for name in rigs:
+        assert (out / name / 'metadata.yaml').exists()
+        (file,) = (out / name).glob('*.mcap')
+        with file.open('rb') as stream:
+            topics = {channel.topic for _, channel, _ in make_reader(stream).iter_messages()}
+        assert topics >= {
+            '/tactile',
+            '/contact',
+            '/finger/cmd_vel',
+            '/push_controller/state',
+            '/ground_truth/state',
+            '/ground_truth/object_pose',
+            '/joint_states',
+        }
+
+
+def test_interrupted_demo_ends_in_silence_and_leaves_no_process(tmp_path: Path):
+    demo = subprocess.Popen(
+        [*COMMAND, '-o', str(tmp_path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert demo.stderr is not None
+    while not (tmp_path / 'block').exists():  # made by the recording process
+        assert demo.poll() is None
+    children = _descendants(demo.pid)
+    assert len(children) >= 5
+    demo.send_signal(signal.SIGINT)
+    _, said = demo.communicate(timeout=30)
+    assert demo.returncode == 130
+    assert 'Traceback' not in said
+    assert not any(Path(f'/proc/{child}').exists() for child in children)
+
+
+def _descendants(pid: int) -> list[int]:
+    listing = subprocess.run(['ps', '-eo', 'pid,ppid'], capture_output=True, text=True, check=True)
+    pairs = [tuple(map(int, line.split())) for line in listing.stdout.splitlines()[1:]]
+    return [child for child, parent in pairs if parent == pid]
+
+
+def test_output_that_cannot_be_written_is_bad_input(tmp_path: Path):
+    file = tmp_path / 'file'
+    file.write_text('')
+    run = subprocess.run([*COMMAND, '-o', str(file)], capture_output=True, text=True, timeout=60)
+    assert run.returncode == 2
+    assert run.stderr.splitlines()[-1].startswith('tactile_push demo: --out: ')
+    assert 'Traceback' not in run.stderr

@@ -1,0 +1,53 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+import math
+
+import numpy as np
+import pytest
+from conftest import Rig, field
+
+from tactile_push.control import STATES, PushLaw, settle_step
+from tactile_push.simulation import paper_block, paper_disk, rollout
+
+STEPS = 260
+
+
+@pytest.mark.parametrize(
+    ('config', 'ideal', 'theta_desired', 'band'),
+    [
+        ('block', paper_block(), math.radians(-10.0), math.radians(3.0)),
+        ('disk', paper_disk(), 0.0, math.radians(1.0)),
+    ],
+)
+def test_loop_settles_along_the_trajectory_of_the_pure_rollout(
+    rig: Rig, config, ideal, theta_desired, band
+):
+    rig.start(config)
+    pushing = float(STATES.index('pushing'))
+    rig.observer.wait_for(
+        lambda: sum(field(m, 'state') == pushing for m in rig.states) > STEPS,
+        f'{STEPS} control periods',
+        patience=120.0,
+    )
+    states = [m for m in rig.states if field(m, 'state') == pushing][: STEPS + 1]
+    theta = np.array([field(m, 'theta') for m in states])
+    phi = np.array([field(m, 'phi') for m in states])
+    expected = rollout(ideal, PushLaw(0.05, 5.0, theta_desired), STEPS)
+    assert np.degrees(np.abs(theta - expected.theta)).max() < 0.5
+    assert np.degrees(np.abs(phi - expected.phi)).max() < 3.0
+    assert settle_step(theta, theta_desired, band) is not None
+    assert field(states[-1], 'ticks_lost') == 0.0
+    # The finger pushes straight ahead first: no kick.
+    assert field(states[0], 'phi') == pytest.approx(math.pi / 2.0)
+    assert field(states[0], 'v_x') == 0.0

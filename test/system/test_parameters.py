@@ -1,0 +1,96 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+import pytest
+from conftest import Observer
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import GetParameters, SetParameters
+
+from tactile_push.processes import NodeProcesses
+
+
+def double(value: float) -> ParameterValue:
+    return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
+
+
+@pytest.mark.parametrize(
+    ('name', 'value'),
+    [
+        ('kp', double(-1.0)),
+        ('kp', double(float('nan'))),
+        ('kd', ParameterValue(type=ParameterType.PARAMETER_STRING, string_value='much')),
+        ('theta_desired', double(40.0)),
+        ('belt_speed', double(0.01)),
+        ('kpp', double(1.0)),
+    ],
+)
+def test_refused_parameter_stays_unchanged(
+    nodes: NodeProcesses, observer: Observer, name: str, value: ParameterValue
+):
+    nodes.start('push_controller')
+
+    def get() -> ParameterValue:
+        answer = observer.call(
+            GetParameters, 'push_controller/get_parameters', GetParameters.Request(names=[name])
+        )
+        return answer.values
+
+    before = get()
+    request = SetParameters.Request(parameters=[Parameter(name=name, value=value)])
+    (result,) = observer.call(SetParameters, 'push_controller/set_parameters', request).results
+    assert not result.successful
+    assert result.reason
+    assert get() == before
+
+
+def test_gains_change_at_run_time(nodes: NodeProcesses, observer: Observer):
+    nodes.start('push_controller')
+    request = SetParameters.Request(parameters=[Parameter(name='kd', value=double(3.0))])
+    (result,) = observer.call(SetParameters, 'push_controller/set_parameters', request).results
+    assert result.successful
+    request = GetParameters.Request(names=['kd'])
+    answer = observer.call(GetParameters, 'push_controller/get_parameters', request)
+    assert answer.values[0].double_value == 3.0
+
+
+@pytest.mark.parametrize(
+    ('node', 'parameters', 'expected'),
+    [
+        ('push_controller', {'kp': -1.0}, 'parameter kp: expected a number'),
+        ('push_controller', {'kp': 1}, 'parameter kp: expected a number with a decimal point'),
+        ('push_controller', {'kq': 1.0}, 'parameter kq: unknown, did you mean kp?'),
+        ('sim_plant', {'object': 'cone'}, 'parameter object: expected one of block, disk'),
+        ('sim_plant', {'d_initial': 0.03}, 'd: expected a contact on the edge'),
+        ('sim_plant', {'device': 'serial:/x'}, 'device: expected socket://host:port'),
+        ('sim_plant', {'real_time_factor': 2.0}, 'real_time_factor: expected 1.0 unless'),
+        ('contact_geometry', {'max_out_of_plane': 2.0}, 'max_out_of_plane: expected a number'),
+        ('sensor_driver', {'device': 'nonsense://x'}, 'nonsense'),
+    ],
+)
+def test_bad_parameter_ends_a_node_with_one_line(
+    nodes: NodeProcesses, node: str, parameters: dict, expected: str
+):
+    process = nodes.start(node, parameters)
+    assert process.wait(30.0) == 2
+    said = nodes.log(node).read_text()
+    assert said.count('\n') == 1
+    assert expected in said
+
+
+def test_broken_parameter_file_ends_a_node_with_its_name(nodes: NodeProcesses, tmp_path):
+    file = tmp_path / 'broken.yaml'
+    file.write_text('push_controller:\n  ros__parameters: [kp\n')
+    assert nodes.start('push_controller', config=file).wait(30.0) == 2
+    said = nodes.log('push_controller').read_text()
+    assert 'broken.yaml' in said
+    assert 'Traceback' not in said
