@@ -79,8 +79,8 @@ class ContactGeometry(Node):
             'max_out_of_plane',
             0.2,
             '',
-            'largest part |cos(elevation) sin(azimuth)| of the direction of a contact that sticks '
-            'out of the plane of motion',
+            'largest size of cos(elevation) sin(azimuth), by which the direction of a contact '
+            'sticks out of the plane of motion',
             0.0,
             1.0,
         ),

@@ -13,6 +13,7 @@
 # limitations under the License.
 """A node as a process: starts, spins, and ends without a traceback."""
 
+import re
 import signal
 import sys
 from types import FrameType
@@ -20,8 +21,10 @@ from types import FrameType
 import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args
 
 from tactile_push.nodes.parameters import ConfigurationError
 
@@ -73,11 +76,18 @@ def run(node_class: type[Node]) -> int:
 
     signal.signal(signal.SIGINT, stop)
     signal.signal(signal.SIGTERM, stop)
+    set_logger_level('rcl', LoggingSeverity.FATAL)  # it logs what it then also throws
     try:
+        foreign = remove_ros_args(sys.argv)[1:]
         rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
     except Exception as error:  # rcl's own exception types are not public
-        return _refuse(node_class, ' '.join(str(error).split()))
+        return _refuse(node_class, f'bad ROS arguments: {_brief(error)}')
+    set_logger_level('rcl', LoggingSeverity.UNSET)
     try:
+        if foreign:
+            raise ConfigurationError(
+                f'unknown argument {foreign[0]}, expected --ros-args -p NAME:=VALUE'
+            )
         node = node_class()
     except ConfigurationError as error:
         rclpy.try_shutdown()
@@ -94,6 +104,12 @@ def run(node_class: type[Node]) -> int:
         node.destroy_node()
         rclpy.try_shutdown()
     return 0
+
+
+def _brief(error: Exception) -> str:
+    """Give rcl's words on one line, without the places in its source."""
+    words = ' '.join(re.sub(r',\s+at \S+:\d+', '', str(error)).split())
+    return words.removeprefix('Failed to parse ROS arguments: ')
 
 
 def _refuse(node_class: type[Node], reason: str) -> int:

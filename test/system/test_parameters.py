@@ -11,6 +11,8 @@
 # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
 # See the License for the specific language governing permissions and
 # limitations under the License.
+from pathlib import Path
+
 import pytest
 from conftest import Observer
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
@@ -87,10 +89,22 @@ def test_bad_parameter_ends_a_node_with_one_line(
     assert expected in said
 
 
-def test_broken_parameter_file_ends_a_node_with_its_name(nodes: NodeProcesses, tmp_path):
-    file = tmp_path / 'broken.yaml'
-    file.write_text('push_controller:\n  ros__parameters: [kp\n')
-    assert nodes.start('push_controller', config=file).wait(30.0) == 2
+@pytest.mark.parametrize(
+    ('arguments', 'expected'),
+    [
+        (('--params-file', 'broken.yaml'), 'broken.yaml'),
+        (('--params-file', 'missing.yaml'), 'missing.yaml'),
+        (('-p', 'kp'), "'-p kp'"),
+        (('--oops',), '--oops'),
+        (('--', 'kp:=1.0'), 'unknown argument kp:=1.0'),
+    ],
+)
+def test_bad_argument_ends_a_node_with_one_line(
+    nodes: NodeProcesses, tmp_path: Path, monkeypatch, arguments: tuple[str, ...], expected: str
+):
+    monkeypatch.chdir(tmp_path)
+    Path('broken.yaml').write_text('push_controller:\n  ros__parameters: [kp\n')
+    assert nodes.start('push_controller', arguments=arguments).wait(30.0) == 2
     said = nodes.log('push_controller').read_text()
-    assert 'broken.yaml' in said
-    assert 'Traceback' not in said
+    assert said.count('\n') == 1
+    assert expected in said

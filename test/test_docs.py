@@ -1,0 +1,94 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+import math
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+import yaml
+
+from tactile_push.nodes.contact_geometry import ContactGeometry
+from tactile_push.nodes.experiment import Experiment
+from tactile_push.nodes.push_controller import PushController
+from tactile_push.nodes.sensor_driver import SensorDriver
+from tactile_push.nodes.sim_plant import SimPlant
+from tactile_push.tactile import decode
+
+ROOT = Path(__file__).resolve().parents[1]
+README = (ROOT / 'README.md').read_text()
+WIRE_FORMAT = (ROOT / 'docs' / 'wire_format.md').read_text()
+
+
+@pytest.mark.parametrize(
+    'node', [SensorDriver, ContactGeometry, PushController, SimPlant, Experiment]
+)
+def test_readme_has_every_parameter_with_its_default_and_unit(node):
+    table = README.split(f'**{node.NAME}**')[1].split('\n\n')[1]
+    rows = [[cell.strip(' `') for cell in line.split('|')[1:-1]] for line in table.splitlines()[2:]]
+    assert [row[0] for row in rows] == [parameter.name for parameter in node.PARAMETERS]
+    for row, parameter in zip(rows, node.PARAMETERS, strict=True):
+        assert len(row) == 4
+        shown = yaml.safe_load(row[1]) or type(parameter.default)()
+        if isinstance(parameter.default, float):
+            assert float(shown) == pytest.approx(parameter.default, rel=1e-3)
+        else:
+            assert shown == parameter.default
+        assert row[2] == parameter.unit
+
+
+@pytest.mark.parametrize('file', sorted((ROOT / 'config').glob('*.yaml')), ids=lambda f: f.stem)
+def test_parameter_files_name_parameters_of_their_nodes_within_their_ranges(file):
+    known = {node.NAME: node for node in (ContactGeometry, PushController, SimPlant)}
+    for key, content in yaml.safe_load(file.read_text()).items():
+        declared = {p.name: p for p in known[key.removeprefix('/**/')].PARAMETERS}
+        for name, value in content['ros__parameters'].items():
+            assert type(value) is type(declared[name].default)
+            if isinstance(value, float):
+                assert declared[name].lower <= value <= declared[name].upper
+
+
+def test_examples_of_the_wire_format_are_valid():
+    contact, no_contact = re.findall(r'^    (\$PTACT,[78],\S+\*\w\w)$', WIRE_FORMAT, re.MULTILINE)
+    sentence = decode(contact.encode())
+    assert sentence.sequence == 7
+    assert sentence.reading.azimuth == 0.0
+    assert sentence.reading.elevation == pytest.approx(math.radians(70.0))
+    assert sentence.reading.normal_force == 1.5
+    assert not decode(no_contact.encode()).reading.in_contact
+
+
+@pytest.mark.skipif(shutil.which('cc') is None, reason='there is no C compiler')
+def test_the_twenty_lines_of_c_speak_the_wire_format(tmp_path: Path):
+    (code,) = re.findall(r'```c\n(.*?)```', WIRE_FORMAT, re.DOTALL)
+    main = """
+int main(void)
+{
+    sequence = 65535;
+    send_reading(1, -180.0, 90.0, 123.456);
+    send_reading(0, 0.0, 0.0, 0.0);
+    return 0;
+}
+"""
+    (tmp_path / 'sensor.c').write_text(code + main)
+    command = ['cc', '-Wall', '-Wextra', '-Werror', '-o', 'sensor', 'sensor.c']
+    subprocess.run(command, cwd=tmp_path, check=True)
+    said = subprocess.run([tmp_path / 'sensor'], capture_output=True, check=True).stdout
+    contact, no_contact = map(decode, said.splitlines(keepends=True))
+    assert (contact.sequence, no_contact.sequence) == (65535, 0)
+    assert contact.reading.azimuth == -math.pi
+    assert contact.reading.elevation == math.pi / 2.0
+    assert contact.reading.normal_force == 123.456
+    assert not no_contact.reading.in_contact
