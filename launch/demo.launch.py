@@ -16,14 +16,16 @@
 import os
 
 from ament_index_python.packages import get_package_share_directory
-from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument
+from launch import LaunchContext, LaunchDescription
+from launch.actions import DeclareLaunchArgument, OpaqueFunction, Shutdown
 from launch.conditions import IfCondition
-from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch.events.process import ProcessExited
+from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
 SHARE = get_package_share_directory('tactile_push')
+NUMBERS = ('kp', 'kd', 'real_time_factor')
 
 
 def generate_launch_description() -> LaunchDescription:
@@ -49,10 +51,18 @@ def generate_launch_description() -> LaunchDescription:
             'rviz', default_value='true', choices=['true', 'false'], description='start RViz'
         ),
     ]
-    config = PathJoinSubstitution([SHARE, 'config', [LaunchConfiguration('object'), '.yaml']])
+    config = [os.path.join(SHARE, 'config', ''), LaunchConfiguration('object'), '.yaml']
     simulated = {'use_sim_time': True}
     device = {'device': LaunchConfiguration('device')}
     nodes = [
+        # First: if it is not installed, nothing else has been started yet.
+        Node(
+            package='rviz2',
+            executable='rviz2',
+            arguments=['-d', os.path.join(SHARE, 'config', 'demo.rviz')],
+            parameters=[simulated],
+            condition=IfCondition(LaunchConfiguration('rviz')),
+        ),
         _node(
             'sim_plant',
             config,
@@ -62,15 +72,23 @@ def generate_launch_description() -> LaunchDescription:
         _node('sensor_driver', device, simulated),
         _node('contact_geometry', config, simulated),
         _node('push_controller', config, {'kp': _number('kp'), 'kd': _number('kd')}, simulated),
-        Node(
-            package='rviz2',
-            executable='rviz2',
-            arguments=['-d', os.path.join(SHARE, 'config', 'demo.rviz')],
-            parameters=[simulated],
-            condition=IfCondition(LaunchConfiguration('rviz')),
-        ),
     ]
-    return LaunchDescription([*arguments, *nodes])
+    return LaunchDescription([*arguments, OpaqueFunction(function=_check_numbers), *nodes])
+
+
+def _check_numbers(context: LaunchContext) -> None:
+    """Refuse what is no number before anything is started."""
+    for name in NUMBERS:
+        value = context.launch_configurations[name]
+        try:
+            float(value)
+        except ValueError:
+            raise ValueError(f'argument {name}: expected a number, got {value!r}') from None
+
+
+def _end_with(event: ProcessExited, context: LaunchContext) -> list[Shutdown]:
+    """End the others when a node fails."""
+    return [Shutdown(reason=f'{event.process_name} failed')] if event.returncode else []
 
 
 def _number(argument: str) -> ParameterValue:
@@ -84,4 +102,5 @@ def _node(executable: str, *parameters: object) -> Node:
         name=executable,
         parameters=list(parameters),
         output='screen',
+        on_exit=_end_with,
     )

@@ -100,9 +100,11 @@ def _demo(options: argparse.Namespace) -> int:
 
 
 def _print_demo(results: 'dict[str, RigResult]', out: Path) -> None:
+    import itertools
     import math
 
     from rich.console import Console
+    from rich.markup import escape
     from rich.table import Table
 
     from tactile_push.demo import CASES, TRANSLATING
@@ -118,7 +120,9 @@ def _print_demo(results: 'dict[str, RigResult]', out: Path) -> None:
 
     def row(label: str, key: str, values: list[str]) -> None:
         papers = [case.paper.get(key, '') for case in CASES]
-        table.add_row(label, *[cell for pair in zip(values, papers, strict=True) for cell in pair])
+        table.add_row(
+            escape(label), *[cell for pair in zip(values, papers, strict=True) for cell in pair]
+        )
 
     runs = [results[case.name] for case in CASES]
     bands = ', '.join(f'{math.degrees(case.band):.0f}°' for case in CASES)

@@ -39,7 +39,8 @@ class Tick:
         Commanded finger velocity [m/s]; None before the first contact: whoever moves the finger
         then, it is not this controller.
     silence : float
-        Time since the last contact was sensed or, before the first one, since activation [s].
+        Time since the last contact was sensed or, before the first one, since activation or since
+        the clock went back [s].
     saturated : bool
         Whether phi is at one of its bounds.
     ticks : int
@@ -86,6 +87,7 @@ class PushControl:
         self.contact_timeout = contact_timeout
         self._theta = math.nan
         self._stamp = -math.inf
+        self._felt: tuple[float, float] | None = None
         self._last_tick = -math.inf
         self.activate(0.0)
 
@@ -112,8 +114,9 @@ class PushControl:
         stamp : float
             When the sensor was read [s]. A contact not newer than the last one is ignored.
         """
-        if math.isfinite(theta) and stamp > self._stamp:
-            self._theta, self._stamp, self._fresh = theta, stamp, True
+        newest = self._stamp if self._felt is None else self._felt[1]
+        if math.isfinite(theta) and math.isfinite(stamp) and stamp > newest:
+            self._felt = theta, stamp
 
     def tick(self, now: float) -> Tick:
         """Decide on the finger's velocity for the next control period.
@@ -129,15 +132,20 @@ class PushControl:
             What to command and why.
         """
         self._count(now)
-        silence = now - (self._stamp if math.isfinite(self._stamp) else self._since)
         # A contact from the future is as useless as an old one: somebody's clock is wrong.
-        if self._fresh and abs(silence) <= self.contact_timeout:
-            self.state = PUSHING
-            self.law.update(self._theta)
-        elif self.state == PUSHING and not abs(silence) <= self.contact_timeout:
+        felt, self._felt = self._felt, None
+        if felt is not None and felt[1] - now <= self.contact_timeout:
+            lost_meanwhile = felt[1] - self._stamp > self.contact_timeout
+            self._theta, self._stamp = felt
+            if now - self._stamp <= self.contact_timeout:
+                if lost_meanwhile:
+                    self.law.reset()
+                self.state = PUSHING
+                self.law.update(self._theta)
+        silence = now - (self._stamp if math.isfinite(self._stamp) else self._since)
+        if self.state == PUSHING and not abs(silence) <= self.contact_timeout:
             self.state = CONTACT_LOST
             self.law.reset()
-        self._fresh = False
         v_x = None if self.state == WAITING else finger_velocity(self.law.phi, self.belt_speed)
         return Tick(
             self.state,
@@ -163,5 +171,5 @@ class PushControl:
         self._since = now
         self._theta = math.nan
         self._stamp = -math.inf
-        self._fresh = False
+        self._felt = None
         self._last_tick = -math.inf

@@ -15,7 +15,7 @@
 
 import math
 
-import numba
+from tactile_push.mechanics.compiled import compiled
 
 
 def check_friction(mu_c: float) -> None:
@@ -35,7 +35,7 @@ def check_friction(mu_c: float) -> None:
         raise ValueError(f'mu_c: expected a coefficient of friction of 0 or more, got {mu_c}')
 
 
-@numba.njit(cache=True)
+@compiled
 def friction_cone(mu_c: float) -> tuple[float, float]:
     """Give the half angle of the friction cone, alpha = atan(mu_c), by its cosine and sine.
 
@@ -90,7 +90,8 @@ def voted_rotation(d: float, l: float, beta: float, mu_c: float) -> int:
 
     Three rays leave the contact: the two edges of the friction cone and the direction of the
     finger's motion. A ray that passes to the left of the centre of mass votes for clockwise
-    rotation, one that passes to the right for counterclockwise; the majority decides.
+    rotation, one that passes to the right for counterclockwise; the majority decides. If two rays
+    pass through the centre of mass, or one does and the others disagree, the object translates.
 
     Parameters
     ----------
@@ -116,5 +117,5 @@ def voted_rotation(d: float, l: float, beta: float, mu_c: float) -> int:
         (math.cos(beta), math.sin(beta)),
     )
     moments = [d * ray_n + l * ray_t for ray_t, ray_n in rays]
-    votes = sum((moment > 0.0) - (moment < 0.0) for moment in moments)
-    return (votes > 0) - (votes < 0)
+    # The majority of three, where a ray through the centre of mass abstains: the middle one.
+    return sorted((moment > 0.0) - (moment < 0.0) for moment in moments)[1]

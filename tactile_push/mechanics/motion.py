@@ -18,13 +18,13 @@ the normal into the object, origin at the centre of mass. The contact lies at (x
 (d, -l). The equations hold in any frame; this one spares every rotation.
 """
 
-import numba
+from tactile_push.mechanics.compiled import compiled
 
 FREE, STICK, SLIP_LEFT, SLIP_RIGHT = 0, 1, 2, 3
 MODES = ('free', 'stick', 'slip_left', 'slip_right')
 
 
-@numba.njit(cache=True)
+@compiled
 def contact_velocity(
     v_x: float, v_y: float, omega: float, x_c: float, y_c: float
 ) -> tuple[float, float]:
@@ -45,7 +45,7 @@ def contact_velocity(
     return v_x - omega * y_c, v_y + omega * x_c
 
 
-@numba.njit(cache=True)
+@compiled
 def twist_under_force(
     f_x: float, f_y: float, x_c: float, y_c: float, c: float
 ) -> tuple[float, float, float]:
@@ -69,7 +69,7 @@ def twist_under_force(
     return f_x, f_y, m / c**2  # (4), (5)
 
 
-@numba.njit(cache=True)
+@compiled
 def motion_cone(
     x_c: float, y_c: float, cos_alpha: float, sin_alpha: float, c: float
 ) -> tuple[float, float, float, float]:
@@ -96,7 +96,7 @@ def motion_cone(
     return v_lx, v_ly, v_rx, v_ry
 
 
-@numba.njit(cache=True)
+@compiled
 def sticking_twist(
     v_px: float, v_py: float, x_c: float, y_c: float, c: float
 ) -> tuple[float, float, float]:
@@ -123,7 +123,7 @@ def sticking_twist(
     return v_x, v_y, omega
 
 
-@numba.njit(cache=True)
+@compiled
 def slipping_twist(
     v_py: float, f_x: float, f_y: float, x_c: float, y_c: float, c: float
 ) -> tuple[float, float, float]:
@@ -151,7 +151,7 @@ def slipping_twist(
     return kappa * v_x, kappa * v_y, kappa * omega
 
 
-@numba.njit(cache=True)
+@compiled
 def pushed_twist(
     v_px: float,
     v_py: float,
@@ -181,26 +181,31 @@ def pushed_twist(
     v_slip : float
         Velocity of the finger along the tangent relative to the object [m/s], eq. (14).
     mode : int
-        `STICK`, `SLIP_LEFT`, `SLIP_RIGHT`, or `FREE` when the finger moves away or rests.
+        `STICK`, `SLIP_LEFT`, `SLIP_RIGHT`, or `FREE` when the finger moves away, slides along
+        without a force or rests. A finger inside the motion cone sticks even if it moves away
+        from the edge: the paper's "pulling".
     """
-    if v_py <= 0.0:
-        return 0.0, 0.0, 0.0, v_px, FREE
     v_lx, v_ly, v_rx, v_ry = motion_cone(x_c, y_c, cos_alpha, sin_alpha, c)
-    # A finger that advances can lie outside an edge only if that edge itself advances: an edge
-    # that points backwards ("pulling") bounds nothing on its side.
-    if v_ly > 0.0 and v_lx * v_py - v_ly * v_px > 0.0:
-        f_x, mode = -sin_alpha, SLIP_LEFT
-    elif v_ry > 0.0 and v_rx * v_py - v_ry * v_px < 0.0:
-        f_x, mode = sin_alpha, SLIP_RIGHT
-    else:
+    left_of_cone = v_lx * v_py - v_ly * v_px > 0.0
+    right_of_cone = v_rx * v_py - v_ry * v_px < 0.0
+    pulls = sin_alpha > 0.0 and (v_px != 0.0 or v_py != 0.0)  # without friction there is no cone
+    if not left_of_cone and not right_of_cone and (v_py > 0.0 or pulls):
         v_x, v_y, omega = sticking_twist(v_px, v_py, x_c, y_c, c)
         return v_x, v_y, omega, 0.0, STICK
+    if v_py <= 0.0:
+        return 0.0, 0.0, 0.0, v_px, FREE
+    # The cone may be as wide as a half plane, and then both of its edges may be passed. The one
+    # that the finger slips on advances.
+    if left_of_cone and v_ly > 0.0:
+        f_x, mode = -sin_alpha, SLIP_LEFT
+    else:
+        f_x, mode = sin_alpha, SLIP_RIGHT
     v_x, v_y, omega = slipping_twist(v_py, f_x, cos_alpha, x_c, y_c, c)
     v_ox, _ = contact_velocity(v_x, v_y, omega, x_c, y_c)
     return v_x, v_y, omega, v_px - v_ox, mode  # (12), (14)
 
 
-@numba.njit(cache=True)
+@compiled
 def contact_rates(v_slip: float, omega: float, curvature: float, r: float) -> tuple[float, float]:
     """Give the rates of the contact along the outline and of its tangent's angle.
 

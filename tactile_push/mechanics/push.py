@@ -19,15 +19,14 @@ controlled by an embedded error estimate (Bogacki and Shampine, 1989, order 3 wi
 
 import math
 
-import numba
-
+from tactile_push.mechanics.compiled import compiled
 from tactile_push.mechanics.motion import FREE, contact_rates, pushed_twist
 
 TOLERANCE = 1e-9  # of theta [rad], and of s in units of the greater of l and r, per step
-SMALLEST_STEP = 1e-9  # of the push; a rate that jumps is crossed with this
+SMALLEST_STEP = 1e-9  # of the push; how finely the end of contact is located
 
 
-@numba.njit(cache=True)
+@compiled
 def push_rates(
     theta: float,
     s: float,
@@ -79,7 +78,7 @@ def push_rates(
     return theta_dot, s_dot, mode
 
 
-@numba.njit(cache=True)
+@compiled
 def push(
     theta: float,
     s: float,
@@ -144,7 +143,11 @@ def push(
         theta_error = step * (-5 * a1 + 6 * a2 + 8 * a3 - 9 * a4) / 72
         s_error = step * (-5 * b1 + 6 * b2 + 8 * b3 - 9 * b4) / 72
         error = max(abs(theta_error), abs(s_error) * scale) / TOLERANCE
-        if error <= 1.0 or step <= SMALLEST_STEP * duration:
+        smallest = step <= SMALLEST_STEP * duration
+        if mode_4 == FREE and not smallest:
+            step /= 2.0  # up to where the finger stops pushing, no further
+            continue
+        if error <= 1.0 or smallest:
             theta, s, mode, a1, b1 = theta_4, s_4, mode_4, a4, b4
             elapsed = duration if last else elapsed + step
         step *= min(5.0, max(0.2, 0.9 / max(error, 1e-6) ** (1.0 / 3.0)))

@@ -103,6 +103,9 @@ def run(node_class: type[Node]) -> int:
         executor.shutdown()
         node.destroy_node()
         rclpy.try_shutdown()
+        # Python restores its own handlers at exit, and an impatient second signal would show.
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
     return 0
 
 

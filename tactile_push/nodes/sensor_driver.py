@@ -120,7 +120,7 @@ class SensorDriver(LifecycleNode):
             except OSError as error:
                 if str(error) != complaint:
                     complaint = str(error)
-                    self.get_logger().error(f'{error}; trying on')
+                    self.get_logger().warning(f'{error}; trying on')
                 self._stopping.wait(retry)
                 retry = min(2.0 * retry, LONGEST_RETRY)
                 continue
@@ -135,7 +135,7 @@ class SensorDriver(LifecycleNode):
                     for reading in self._stream.feed(device.read()):
                         self._publish(reading)
             except OSError as error:
-                self.get_logger().error(f'{self._settings.device}: {error}')
+                self.get_logger().warning(f'{self._settings.device}: {error}')
                 self._stopping.wait(retry)
             finally:
                 self._connected = False

@@ -187,13 +187,17 @@ class SimPlant(Node):
                 f'got {p.real_time_factor}'
             )
         try:
-            self._rig = Rig(self._rig_config())
-            self._rig.step(0.0, 0.0)  # compiles the mechanics before time begins
+            config = self._rig_config()
+        except ValueError as error:
+            raise ConfigurationError(str(error)) from None
+        self._rig = Rig(config)
+        Rig(config).step(0.0, 1.0)  # compiles the mechanics before time begins
+        try:
             self._device = serve(p.device)
-        except (ValueError, OSError) as error:
-            raise ConfigurationError(
-                f'parameter device: {error.strerror}' if isinstance(error, OSError) else str(error)
-            ) from None
+        except ValueError as error:
+            raise ConfigurationError(f'parameter device: {error}') from None
+        except OSError as error:
+            raise ConfigurationError(f'parameter device: {error.strerror}') from None
         self._period = 1.0 / p.sensor_rate
         self._pace = Pace(p.real_time_factor, 1.0 / p.control_rate, p.command_timeout)
         self._steps = 0

@@ -22,6 +22,8 @@ import tty
 from typing import Protocol
 from urllib.parse import urlsplit
 
+from tactile_push.tactile.device import socket_address
+
 
 class DeviceServer(Protocol):
     """Something that a sensor driver can open and that sends it bytes."""
@@ -53,17 +55,11 @@ def serve(device: str) -> DeviceServer:
     OSError
         If the address or path is in use or not ours.
     """
-    url = urlsplit(device)
-    if url.scheme == 'socket':
-        try:
-            host, port = url.hostname, url.port
-        except ValueError:
-            host, port = None, None
-        if not host or port is None:
-            raise ValueError(f'device: expected socket://host:port, got {device!r}')
-        return TcpServer(host, port)
-    if url.scheme or not os.path.isabs(device):
-        raise ValueError(f'device: expected socket://host:port or an absolute path, got {device!r}')
+    scheme = urlsplit(device).scheme
+    if scheme == 'socket':
+        return TcpServer(*socket_address(device))
+    if scheme or not os.path.isabs(device):
+        raise ValueError(f'expected socket://host:port or an absolute path, got {device!r}')
     return PseudoTerminal(device)
 
 
@@ -151,6 +147,7 @@ class PseudoTerminal:
 
     def close(self) -> None:
         """Remove the link and the line."""
-        os.unlink(self._path)
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(self._path)
         os.close(self._near)
         os.close(self._far)

@@ -37,6 +37,7 @@ from tactile_push.tactile import (
 )
 
 TOUCH = 1e-9  # a gap below this is a contact [m]
+END_OF_EDGE = 1e-6  # of a step; how finely the moment is located when the finger leaves an edge
 
 
 @dataclass(frozen=True)
@@ -168,7 +169,8 @@ class Rig:
     def __init__(self, config: RigConfig) -> None:
         self.config = config
         self._friction_cone = friction_cone(config.mu_c)
-        self._home = config.finger.forward(math.pi / 2.0, -math.pi / 2.0)
+        # The knuckle points across the belt, the pole along it.
+        self._home = config.finger.forward(math.pi - config.finger.mount_angle, -math.pi / 2.0)
         self.finger_x = 0.0
         self.finger_y = 0.0
         self.theta = config.theta
@@ -260,16 +262,12 @@ class Rig:
             self.mode = FREE
             return
         self.phi = math.atan2(v_y, v_x)
-        remaining = duration
-        if self.touching and self._leaves():
-            # Moving away does not end in a contact with the same outline, which is convex.
+        remaining = duration - self._approach(v_x, v_y, speed, duration)
+        if self.touching:
+            remaining -= self._push(v_x, v_y, speed, remaining)
+        if remaining > 0.0:
+            # Moving away does not end in another contact with the same outline: it is convex.
             self._move(v_x, v_y, remaining)
-        else:
-            remaining -= self._approach(v_x, v_y, speed, remaining)
-            self._push(v_x, v_y, speed, remaining)
-
-    def _leaves(self) -> bool:
-        return math.sin(self.phi - self.theta) <= 0.0
 
     def _move(self, v_x: float, v_y: float, duration: float) -> None:
         """Move the finger while nothing is pushed."""
@@ -289,30 +287,39 @@ class Rig:
             elapsed += advance
         return elapsed
 
-    def _push(self, v_x: float, v_y: float, speed: float, duration: float) -> None:
-        """Push the object that the finger touches."""
-        if duration <= 0.0:
-            return
+    def _push(self, v_x: float, v_y: float, speed: float, duration: float) -> float:
+        """Push the object as long as the finger touches and pushes it; give the time taken."""
         outline = self.config.outline
-        self.theta, self.s, elapsed, self.mode = push(
-            self.theta,
-            self.s,
-            speed,
-            self.phi,
-            duration,
-            outline.curvature,
-            outline.l,
-            self.config.c,
-            *self._friction_cone,
-            self.config.radius,
-        )
+
+        def pushed(time: float) -> tuple[float, float, float, int]:
+            return push(
+                self.theta,
+                self.s,
+                speed,
+                self.phi,
+                time,
+                outline.curvature,
+                outline.l,
+                self.config.c,
+                *self._friction_cone,
+                self.config.radius,
+            )
+
+        end = pushed(duration)
+        if not outline.bears(end[1]):  # by bisection, when the contact reaches the end of the edge
+            touching, beyond = 0.0, duration
+            while beyond - touching > END_OF_EDGE * duration:
+                middle = (touching + beyond) / 2.0
+                if outline.bears(pushed(middle)[1]):
+                    touching = middle
+                else:
+                    beyond = middle
+            end = pushed(touching)
+        self.theta, self.s, elapsed, self.mode = end
         self.finger_x += v_x * elapsed
         self.finger_y += v_y * elapsed
         self.object_pose = outline.pose(
             self.theta, self.s, self.finger_x, self.finger_y, self.config.radius
         )
         self.gap = 0.0
-        if not outline.bears(self.s):
-            self.gap, self.mode = math.inf, FREE
-        if elapsed < duration:
-            self._move(v_x, v_y, duration - elapsed)
+        return elapsed

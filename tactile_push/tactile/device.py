@@ -15,6 +15,7 @@
 
 import io
 import select
+from urllib.parse import urlsplit
 
 import serial
 
@@ -84,3 +85,35 @@ def check_url(url: str) -> None:
         If the URL is of no kind that pyserial knows.
     """
     serial.serial_for_url(url, do_not_open=True)
+    if urlsplit(url).scheme == 'socket':
+        socket_address(url)
+
+
+def socket_address(url: str) -> tuple[str, int]:
+    """Give the address in a URL of the form socket://host:port.
+
+    Parameters
+    ----------
+    url : str
+        The URL.
+
+    Returns
+    -------
+    host : str
+        Name or address.
+    port : int
+        0 to 65535.
+
+    Raises
+    ------
+    ValueError
+        If the URL is not of this form.
+    """
+    try:
+        parts = urlsplit(url)
+        host, port = parts.hostname, parts.port
+    except ValueError:
+        host, port = None, None
+    if not host or port is None:
+        raise ValueError(f'expected socket://host:port, got {url!r}')
+    return host, port

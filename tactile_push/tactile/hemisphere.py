@@ -65,10 +65,12 @@ def contact_of_reading(
     Raises
     ------
     ReadingRejectedError
-        If there is no contact, an angle lies off the hemisphere, or the contact lies further out
-        of the plane of motion than allowed. The message is the reason in two or three words.
+        If there is no contact, psi is not finite, an angle lies off the hemisphere, or the contact
+        lies further out of the plane of motion than allowed. The message is the reason.
     """
     azimuth, elevation = reading.azimuth, reading.elevation
+    if not math.isfinite(psi):
+        raise ReadingRejectedError('direction of the finger unknown')
     if not reading.in_contact:
         raise ReadingRejectedError('no contact')
     if not (-math.pi <= azimuth <= math.pi and 0.0 <= elevation <= math.pi / 2.0):

@@ -43,6 +43,8 @@ def yaw_of_quaternion(z: float, w: float) -> float:
     Returns
     -------
     float
-        Angle [rad] in [-pi, pi].
+        Angle [rad] in [-pi, pi]; NaN if the components are no rotation: both 0 or not finite.
     """
+    if z == w == 0.0 or not (math.isfinite(z) and math.isfinite(w)):
+        return math.nan
     return math.remainder(2.0 * math.atan2(z, w), 2.0 * math.pi)

@@ -27,8 +27,9 @@ from tactile_push.tactile.sentence import (
 class SentenceStream:
     """Cuts a stream of bytes into sentences and counts what is wrong with them.
 
-    A sentence may come in pieces or many at a time. Bytes before `$` are skipped; a line that
-    grows beyond the longest sentence is dropped, so memory is bounded.
+    A sentence may come in pieces or many at a time. Only what follows the last `$` of a line can
+    become a sentence, and only if it is no longer than one can be; the rest is thrown away at
+    once, so memory is bounded.
 
     Attributes
     ----------
@@ -51,13 +52,13 @@ class SentenceStream:
         self.repeated = 0
         self.restarts = 0
         self._pending = b''
-        self._overlong = False
+        self._thrown_away = 0
         self._sequence: int | None = None
 
     def restart(self) -> None:
         """Forget a half line and the last sequence number: the device was opened anew."""
         self._pending = b''
-        self._overlong = False
+        self._thrown_away = 0
         self._sequence = None
 
     def feed(self, data: bytes) -> list[Reading]:
@@ -74,26 +75,27 @@ class SentenceStream:
             Oldest first.
         """
         *lines, pending = (self._pending + data).split(b'\n')
-        readings = []
-        for line in lines:
-            if self._overlong:  # the end of a line that was dropped already
-                self._overlong = False
-            elif (reading := self._take(line)) is not None:
-                readings.append(reading)
-        if len(pending) > LONGEST_SENTENCE:
-            if not self._overlong:
-                self.dropped['no line end'] += 1
-            self._overlong = True
-            pending = b''
-        self._pending = pending
+        readings = [reading for line in lines if (reading := self._take(line)) is not None]
+        start = pending.rfind(b'$')
+        self._pending = pending[start:] if start >= 0 else b''
+        if len(self._pending) > LONGEST_SENTENCE:
+            self._pending = b''
+        before = self._thrown_away
+        self._thrown_away += len(pending) - len(self._pending)
+        if before <= LONGEST_SENTENCE < self._thrown_away:
+            self.dropped['no line end'] += 1
         return readings
 
     def _take(self, line: bytes) -> Reading | None:
-        line = line.rstrip(b'\r')
-        if not line:
+        start = line.rfind(b'$')
+        if start < 0:
+            if 0 < len(line.rstrip(b'\r')) + self._thrown_away <= LONGEST_SENTENCE:
+                self.dropped['no sentence'] += 1
+            self._thrown_away = 0
             return None
+        self._thrown_away = 0
         try:
-            sentence = decode(line[max(line.rfind(b'$'), 0) :])
+            sentence = decode(line[start:])
         except SentenceError as error:
             self.dropped[str(error)] += 1
             return None

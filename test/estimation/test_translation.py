@@ -1,0 +1,113 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tactile_push.estimation import contact_of_translation
+
+checked = settings(derandomize=True, deadline=None, max_examples=60)
+thetas = st.floats(-1.5, 1.5)
+betas = st.floats(0.01, math.pi - 0.01)
+distances = st.floats(0.001, 0.1)
+BLOCK = 0.02375
+
+
+def d_in_cm(phi_less_theta):
+    theta = math.radians(-10.0)
+    return 100.0 * contact_of_translation(theta, theta + math.radians(phi_less_theta), BLOCK)
+
+
+@checked
+@given(thetas, betas, distances)
+def test_both_branches_of_17(theta, beta, l):
+    phi = theta + beta
+    if phi - theta < math.pi / 2.0:
+        expected = l / math.tan(theta - phi)
+    else:
+        expected = l / math.tan(math.pi + theta - phi)
+
+    assert contact_of_translation(theta, phi, l) == pytest.approx(expected, rel=1e-12, abs=1e-16)
+
+
+def test_the_bounds_that_the_paper_finds():
+    # phi - theta between 90.6 and 95.0 degrees, themselves rounded to tenths.
+    assert round(d_in_cm(95.0), 2) == 0.21
+    assert round(d_in_cm(90.55), 2) < 0.03 == round(d_in_cm(90.65), 2)
+    assert d_in_cm(90.6) == pytest.approx(2.375 * 0.6 * math.pi / 180.0, rel=1e-4)  # tan x = x
+
+
+@pytest.mark.parametrize(
+    ('degrees', 'd'),
+    [(45.0, -1.0), (135.0, 1.0), (60.0, -1.0 / math.sqrt(3.0)), (150.0, math.sqrt(3.0))],
+)
+def test_contacts_as_computed_by_hand(degrees, d):
+    # A push to the right, towards +t, comes from the left of the centre of mass.
+    assert contact_of_translation(0.2, 0.2 + math.radians(degrees), 1.0) == pytest.approx(
+        d, rel=1e-14
+    )
+
+
+def test_a_straight_push_comes_from_the_middle():
+    assert contact_of_translation(0.0, math.pi / 2.0, BLOCK) == pytest.approx(0.0, abs=1e-17)
+
+
+@checked
+@given(thetas, betas, distances)
+def test_the_ray_of_pushing_passes_through_the_centre_of_mass(theta, beta, l):
+    d = contact_of_translation(theta, theta + beta, l)
+
+    # In the frame of the base, from the contact: -d along the tangent and l along the normal.
+    x = -d * math.cos(theta) - l * math.sin(theta)
+    y = -d * math.sin(theta) + l * math.cos(theta)
+    assert math.atan2(y, x) == pytest.approx(
+        math.remainder(theta + beta, math.tau), rel=0, abs=1e-13
+    )
+
+
+@checked
+@given(betas, st.floats(-1.0, 1.0))
+def test_it_is_continuous_where_the_branches_meet(theta, side):
+    phi = theta + math.pi / 2.0 + side * 1e-9
+
+    assert contact_of_translation(theta, phi, 1.0) == pytest.approx(side * 1e-9, rel=0, abs=1e-15)
+
+
+@checked
+@given(betas, distances)
+def test_mirror_images_mirror(beta, l):
+    d = contact_of_translation(0.0, beta, l)
+
+    assert contact_of_translation(0.0, math.pi - beta, l) == pytest.approx(-d, rel=1e-11, abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    ('theta', 'phi'),
+    [
+        (0.3, 0.3),
+        (0.3, 0.2),
+        (0.0, math.pi),
+        (-0.1, 3.1),
+        (-2.0, 2.0),
+        (math.nan, 1.5),
+        (0.0, math.nan),
+        (0.0, math.inf),
+    ],
+)
+def test_a_finger_that_does_not_move_into_the_object_pushes_from_nowhere(theta, phi):
+    with pytest.raises(ValueError, match='phi - theta'):
+        contact_of_translation(theta, phi, BLOCK)
