@@ -100,7 +100,6 @@ def _demo(options: argparse.Namespace) -> int:
 
 
 def _print_demo(results: 'dict[str, RigResult]', out: Path) -> None:
-    import itertools
     import math
 
     from rich.console import Console
