@@ -14,6 +14,7 @@
 """The package's nodes as processes, in a ROS domain of their own that ends at this machine."""
 
 import fcntl
+import json
 import os
 import random
 import signal
@@ -158,8 +159,8 @@ def yaml_value(value: Any) -> str:
     if isinstance(value, float):
         text = repr(value)
         return {'inf': '.inf', '-inf': '-.inf', 'nan': '.nan'}.get(text, text)
-    if isinstance(value, list):
-        return '[' + ', '.join(yaml_value(item) for item in value) + ']'
+    if isinstance(value, str | list):
+        return json.dumps(value)  # which YAML reads as it is
     return str(value)
 
 

@@ -69,11 +69,33 @@ class Edge:
         _check_length('l', self.l)
 
     def d(self, s: float) -> float:
-        """Give the paper's d [m] of the contact at `s`."""
+        """Give the paper's d of a contact.
+
+        Parameters
+        ----------
+        s : float
+            Contact along the outline [m].
+
+        Returns
+        -------
+        float
+            d [m]; on an edge it is s.
+        """
         return s
 
     def bears(self, s: float) -> bool:
-        """Tell whether the outline has a point at `s` [m]."""
+        """Tell whether the outline has a point at a place.
+
+        Parameters
+        ----------
+        s : float
+            Position along the outline [m].
+
+        Returns
+        -------
+        bool
+            Whether it lies on the edge.
+        """
         return abs(s) <= self.length / 2.0
 
     def pose(self, theta: float, s: float, finger_x: float, finger_y: float, r: float) -> Pose:
@@ -156,11 +178,33 @@ class Disk:
         return 1.0 / self.radius
 
     def d(self, s: float) -> float:
-        """Give the paper's d [m]: the centre of mass lies on every normal, so 0."""
+        """Give the paper's d of a contact.
+
+        Parameters
+        ----------
+        s : float
+            Contact along the outline [m].
+
+        Returns
+        -------
+        float
+            0: the centre of mass lies on every normal.
+        """
         return 0.0
 
     def bears(self, s: float) -> bool:
-        """Tell whether the outline has a point at `s` [m]: it is closed."""
+        """Tell whether the outline has a point at a place.
+
+        Parameters
+        ----------
+        s : float
+            Position along the outline [m].
+
+        Returns
+        -------
+        bool
+            True: the outline is closed.
+        """
         return True
 
     def pose(self, theta: float, s: float, finger_x: float, finger_y: float, r: float) -> Pose:

@@ -29,7 +29,13 @@ class DeviceServer(Protocol):
     """Something that a sensor driver can open and that sends it bytes."""
 
     def send(self, data: bytes) -> None:
-        """Send bytes to whoever listens; drop them if nobody does or if he does not keep up."""
+        """Send bytes to whoever listens; drop them if nobody does or if he does not keep up.
+
+        Parameters
+        ----------
+        data : bytes
+            What to send.
+        """
 
     def close(self) -> None:
         """Stop serving."""
@@ -138,7 +144,12 @@ class PseudoTerminal:
         self._near, self._far = pty.openpty()
         tty.setraw(self._far)
         os.set_blocking(self._near, False)
-        os.symlink(os.ttyname(self._far), path)
+        try:
+            os.symlink(os.ttyname(self._far), path)
+        except OSError as error:
+            os.close(self._near)
+            os.close(self._far)
+            raise OSError(error.errno, f'{path}: {error.strerror}') from None
 
     def send(self, data: bytes) -> None:
         """Send bytes down the line; what nobody reads is lost once the line is full."""

@@ -1,0 +1,151 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""What a node says of itself: once a second, and at once when the level changes."""
+
+import random
+import time
+import uuid
+
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus  # noqa: E402
+from rclpy.context import Context  # noqa: E402
+from rclpy.executors import SingleThreadedExecutor  # noqa: E402
+
+from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health  # noqa: E402
+
+PATIENCE = 30.0  # [s]
+
+
+class Patient:
+    """A node whose health the test decides, and what it publishes."""
+
+    def __init__(self):
+        self.context = Context()
+        rclpy.init(context=self.context, domain_id=random.randint(1, 100))
+        self.namespace = f'test_{uuid.uuid4().hex}'
+        self.node = rclpy.create_node('patient', context=self.context, namespace=self.namespace)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.node)
+        self.health = Health(OK, 'fine')
+        self.asked = 0
+        self.published = []
+        self.node.create_subscription(DiagnosticArray, '/diagnostics', self._receive, 10)
+        self.diagnostics = Diagnostics(self.node, self._ask)
+        # Count what is sent, besides what arrives: the topic is everybody's.
+        publisher = self.diagnostics._publisher
+        self.sent = []
+        send = publisher.publish
+        publisher.publish = lambda message: (self.sent.append(message), send(message))
+
+    def _ask(self):
+        self.asked += 1
+        return self.health
+
+    def _receive(self, message):
+        if message.status and message.status[0].name.startswith(self.namespace):
+            self.published.append(message)
+
+    def spin_until(self, condition):
+        """Run the node until the condition holds."""
+        deadline = time.monotonic() + PATIENCE
+        while not condition():
+            assert time.monotonic() < deadline, 'the condition did not come true'
+            self.executor.spin_once(timeout_sec=0.02)
+
+
+@pytest.fixture
+def patient(monkeypatch):
+    """Return the node."""
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    patient = Patient()
+    yield patient
+    patient.executor.shutdown()
+    patient.node.destroy_node()
+    rclpy.shutdown(context=patient.context)
+
+
+def levels(messages):
+    return [message.status[0].level for message in messages]
+
+
+def test_levels_are_those_of_the_message():
+    assert (OK, WARN, ERROR) == (b'\x00', b'\x01', b'\x02')
+    assert DiagnosticStatus.ERROR == ERROR
+
+
+def test_message_says_who_how_and_what(patient):
+    patient.health = Health(WARN, 'a bit ill', {'fever [K]': 312.5, 'times': 3, 'since': None})
+    patient.diagnostics.publish()
+    patient.spin_until(lambda: patient.published)
+    message = patient.published[0]
+    (status,) = message.status
+    assert status.level == WARN
+    assert status.name == f'{patient.namespace}/patient'
+    assert status.message == 'a bit ill'
+    assert {item.key: item.value for item in status.values} == {
+        'fever [K]': '312.5',
+        'times': '3',
+        'since': 'None',
+    }
+    now = patient.node.get_clock().now().nanoseconds * 1e-9
+    stamp = message.header.stamp.sec + message.header.stamp.nanosec * 1e-9
+    assert 0.0 <= now - stamp < PATIENCE
+
+
+def test_change_of_level_is_published_at_once_and_no_other(patient):
+    patient.diagnostics.update()
+    assert levels(patient.sent) == [OK]
+    for _ in range(3):
+        patient.diagnostics.update()
+    assert levels(patient.sent) == [OK]
+    patient.health = Health(ERROR, 'broken')
+    patient.diagnostics.update()
+    patient.diagnostics.update()
+    assert levels(patient.sent) == [OK, ERROR]
+    patient.health = Health(WARN, 'mending')
+    patient.diagnostics.update()
+    patient.health = Health(OK, 'fine')
+    patient.diagnostics.update()
+    patient.diagnostics.update()
+    assert levels(patient.sent) == [OK, ERROR, WARN, OK]
+
+
+def test_other_words_at_the_same_level_wait_for_their_turn(patient):
+    patient.diagnostics.update()
+    patient.health = Health(OK, 'fine, in other words', {'more': 1})
+    patient.diagnostics.update()
+    assert len(patient.sent) == 1
+
+
+def test_health_is_published_once_a_second_without_being_asked(patient):
+    start = time.monotonic()
+    patient.spin_until(lambda: len(patient.sent) >= 2)
+    assert time.monotonic() - start > 1.8
+    patient.spin_until(lambda: len(patient.published) >= 2)
+    assert levels(patient.published[:2]) == [OK, OK]
+
+
+def test_periodic_report_counts_as_the_last_level(patient):
+    patient.diagnostics.update()
+    patient.health = Health(ERROR, 'broken')
+    patient.diagnostics.publish()
+    patient.diagnostics.update()
+    assert levels(patient.sent) == [OK, ERROR]
+
+
+def test_values_are_empty_unless_given():
+    assert dict(Health(OK, 'fine').values) == {}

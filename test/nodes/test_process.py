@@ -1,0 +1,237 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""A node as a process: its help, its refusals and its end, as a shell sees them."""
+
+import contextlib
+import random
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from rclpy.context import Context  # noqa: E402
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn  # noqa: E402
+
+from tactile_push.nodes.contact_geometry import ContactGeometry  # noqa: E402
+from tactile_push.nodes.parameters import ConfigurationError  # noqa: E402
+from tactile_push.nodes.process import autostart  # noqa: E402
+from tactile_push.processes import NodeProcesses  # noqa: E402
+
+PATIENCE = 60.0  # [s]
+
+
+@pytest.fixture(scope='module')
+def environment(tmp_path_factory):
+    """Return the environment of nodes that nobody else hears."""
+    with NodeProcesses(tmp_path_factory.mktemp('nodes')) as nodes:
+        yield nodes.environment
+
+
+@pytest.fixture(scope='module')
+def observer(environment):
+    """Return a node in the domain of the processes, to see which nodes are there."""
+    context = Context()
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+        rclpy.init(context=context, domain_id=int(environment['ROS_DOMAIN_ID']))
+    node = rclpy.create_node('observer', context=context)
+    yield node
+    node.destroy_node()
+    rclpy.shutdown(context=context)
+
+
+def command(node, *arguments):
+    return [sys.executable, '-m', f'tactile_push.nodes.{node}', *arguments]
+
+
+def finish(environment, node, *arguments):
+    """Run a node that ends by itself."""
+    return subprocess.run(
+        command(node, *arguments), env=environment, capture_output=True, text=True, timeout=PATIENCE
+    )
+
+
+@contextlib.contextmanager
+def running(environment, observer, node, *arguments):
+    """Start a node and wait until the graph shows it."""
+    process = subprocess.Popen(
+        command(node, *arguments),
+        env=environment,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        deadline = time.monotonic() + PATIENCE
+        while node not in observer.get_node_names():
+            assert process.poll() is None, process.communicate()[1]
+            assert time.monotonic() < deadline, 'the node does not appear'
+            time.sleep(0.02)
+        yield process
+    finally:
+        if process.poll() is None:
+            process.kill()
+        process.communicate()
+
+
+@pytest.mark.parametrize('signum', [signal.SIGINT, signal.SIGTERM])
+def test_signal_ends_a_node_in_silence(environment, observer, signum):
+    with running(environment, observer, 'contact_geometry') as process:
+        process.send_signal(signum)
+        out, err = process.communicate(timeout=PATIENCE)
+        assert process.returncode == 0
+        assert (out, err) == ('', '')
+    deadline = time.monotonic() + PATIENCE
+    while 'contact_geometry' in observer.get_node_names():
+        assert time.monotonic() < deadline, 'the node stays in the graph'
+        time.sleep(0.02)
+
+
+def test_second_signal_does_not_disturb_the_end(environment, observer):
+    with running(environment, observer, 'push_controller') as process:
+        for _ in range(3):
+            process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=PATIENCE)
+        assert process.returncode == 0
+        assert (out, err) == ('', '')
+
+
+def test_help_lists_every_parameter_with_default_and_unit(environment):
+    done = finish(environment, 'contact_geometry', '--help')
+    assert (done.returncode, done.stderr) == (0, '')
+    lines = done.stdout.splitlines()
+    assert lines[0].startswith('usage: contact_geometry')
+    assert len(ContactGeometry.PARAMETERS) >= 6
+    for parameter in ContactGeometry.PARAMETERS:
+        (index,) = (
+            number
+            for number, line in enumerate(lines)
+            if line.split(' := ')[0].strip() == parameter.name
+        )
+        assert lines[index].endswith(f':= {parameter.default}')
+        assert parameter.description in lines[index + 1]
+        if parameter.unit:
+            assert f'[{parameter.unit}]' in lines[index + 1]
+    assert "effective radius of the finger's disk [m]" in done.stdout
+    assert 'from 0.0001 to 1' in done.stdout
+    assert max(map(len, lines)) < 200
+
+
+def refused(environment, *arguments, node='contact_geometry'):
+    """Return the one line with which a node refuses to start."""
+    done = finish(environment, node, *arguments)
+    assert done.returncode == 2
+    assert done.stdout == ''
+    assert 'Traceback' not in done.stderr
+    lines = done.stderr.splitlines()
+    assert len(lines) == 1, done.stderr
+    assert lines[0].startswith(f'{node}: ')
+    return lines[0]
+
+
+@pytest.mark.parametrize(
+    ('assignment', 'words'),
+    [
+        (
+            'finger_radius:=-0.5',
+            'parameter finger_radius: expected a number with a decimal point [m] '
+            'from 0.0001 to 1, got -0.5',
+        ),
+        (
+            'max_out_of_plain:=0.5',
+            'parameter max_out_of_plain: unknown, did you mean max_out_of_plane?',
+        ),
+    ],
+)
+def test_bad_parameter_is_refused_on_one_line(environment, assignment, words):
+    assert refused(environment, '--ros-args', '-p', assignment) == f'contact_geometry: {words}'
+
+
+def test_broken_parameter_file_is_refused_on_one_line(environment, tmp_path):
+    path = tmp_path / 'broken.yaml'
+    path.write_text('contact_geometry:\n  ros__parameters: [1, 2\n')
+    line = refused(environment, '--ros-args', '--params-file', str(path))
+    assert 'broken.yaml' in line
+
+
+def test_missing_parameter_file_is_refused_on_one_line(environment, tmp_path):
+    path = tmp_path / 'missing.yaml'
+    assert 'missing.yaml' in refused(environment, '--ros-args', '--params-file', str(path))
+
+
+def test_place_that_cannot_be_served_is_refused_by_name(environment, tmp_path):
+    place = tmp_path / 'nowhere' / 'sensor'
+    line = refused(environment, '--ros-args', '-p', f'device:={place}', node='sim_plant')
+    assert line.startswith('sim_plant: parameter device: ')
+    assert str(place) in line
+
+
+class Managed(LifecycleNode):
+    """A managed node whose transitions end as told."""
+
+    def __init__(self, context, configure, activate):
+        super().__init__('managed', context=context, enable_rosout=False)
+        self.results = {'configure': configure, 'activate': activate}
+        self.calls = []
+
+    def on_configure(self, state):
+        self.calls.append('configure')
+        return self.results['configure']
+
+    def on_activate(self, state):
+        self.calls.append('activate')
+        return self.results['activate']
+
+
+SUCCESS, FAILURE = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE
+
+
+@pytest.fixture
+def managed(monkeypatch):
+    """Return a maker of managed nodes in a context of their own."""
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    context = Context()
+    rclpy.init(context=context, domain_id=random.randint(1, 100))
+    nodes = []
+
+    def make(configure, activate):
+        nodes.append(Managed(context, configure, activate))
+        return nodes[-1]
+
+    yield make
+    for node in nodes:
+        node.destroy_node()
+    rclpy.shutdown(context=context)
+
+
+def test_autostart_configures_and_activates(managed):
+    node = managed(SUCCESS, SUCCESS)
+    autostart(node)
+    assert node.calls == ['configure', 'activate']
+
+
+@pytest.mark.parametrize(
+    ('configure', 'activate', 'calls'),
+    [(FAILURE, SUCCESS, ['configure']), (SUCCESS, FAILURE, ['configure', 'activate'])],
+)
+def test_autostart_that_fails_is_a_refusal(managed, configure, activate, calls):
+    node = managed(configure, activate)
+    with pytest.raises(ConfigurationError):
+        autostart(node)
+    assert node.calls == calls

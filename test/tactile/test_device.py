@@ -1,0 +1,238 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Devices of every kind: a pseudo terminal, a TCP connection, and one without a file."""
+
+import contextlib
+import os
+import random
+import socket
+import time
+import tty
+
+import pytest
+
+from tactile_push.tactile.device import Device, check_url, socket_address
+
+BAUD_RATE = 115200
+PATIENCE = 20.0  # [s]
+
+
+def receive(device, count):
+    """Read until there are so many bytes."""
+    data = b''
+    deadline = time.monotonic() + PATIENCE
+    while len(data) < count:
+        assert time.monotonic() < deadline, f'only {data!r} came'
+        data += device.read()
+    return data
+
+
+def read_until_gone(device):
+    """Read until the device says that it is gone."""
+    deadline = time.monotonic() + PATIENCE
+    while time.monotonic() < deadline:
+        device.read()
+
+
+def shortest_idle_read(device):
+    """Return how long the quickest of some reads of nothing took [s]."""
+    durations = []
+    for _ in range(5):
+        start = time.monotonic()
+        assert device.read() == b''
+        durations.append(time.monotonic() - start)
+    return min(durations)
+
+
+@pytest.fixture
+def line():
+    """Return the near end of a pseudo terminal and the path of its far end."""
+    near, far = os.openpty()
+    tty.setraw(far)
+    yield near, os.ttyname(far)
+    for end in (near, far):
+        with contextlib.suppress(OSError):  # a test may have closed it
+            os.close(end)
+
+
+@pytest.fixture
+def listener():
+    """Return a listening socket at an address of its own and the URL to reach it."""
+    host = f'127.{random.randint(1, 254)}.{random.randint(0, 254)}.{random.randint(1, 254)}'
+    with socket.create_server((host, 0)) as listener:
+        yield listener, f'socket://{host}:{listener.getsockname()[1]}'
+
+
+@pytest.fixture
+def devices():
+    """Return an opener of devices, which are closed at the end."""
+    with contextlib.ExitStack() as stack:
+
+        def open_device(url):
+            device = Device(url, BAUD_RATE)
+            stack.callback(device.close)
+            return device
+
+        yield open_device
+
+
+def test_bytes_of_a_pseudo_terminal_arrive_unchanged(line, devices):
+    near, path = line
+    device = devices(path)
+    data = bytes(range(256))
+    os.write(near, data)
+    assert receive(device, len(data)) == data
+    os.write(near, b'$PTACT,0,V,,,*18\r\n')
+    assert receive(device, 18) == b'$PTACT,0,V,,,*18\r\n'
+
+
+def test_bytes_of_a_tcp_connection_arrive_unchanged(listener, devices):
+    server, url = listener
+    device = devices(url)
+    client, _ = server.accept()
+    with client:
+        data = bytes(range(256)) * 20
+        client.sendall(data)
+        assert receive(device, len(data)) == data
+
+
+def test_bytes_of_a_device_without_a_file_arrive(devices):
+    device = devices('loop://')
+    device._port.write(b'hello')
+    assert receive(device, 5) == b'hello'
+    assert device.read() == b''
+
+
+def test_idle_pseudo_terminal_gives_no_bytes_soon(line, devices):
+    assert shortest_idle_read(devices(line[1])) < 0.2
+
+
+def test_idle_tcp_connection_gives_no_bytes_soon(listener, devices):
+    server, url = listener
+    device = devices(url)
+    client, _ = server.accept()
+    with client:
+        assert shortest_idle_read(device) < 0.2
+
+
+def test_idle_device_without_a_file_gives_no_bytes_soon(devices):
+    assert shortest_idle_read(devices('loop://')) < 0.2
+
+
+def test_idle_read_waits_rather_than_spins(line, devices):
+    device = devices(line[1])
+    start = time.process_time()
+    began = time.monotonic()
+    while time.monotonic() - began < 0.2:
+        assert device.read() == b''
+    assert time.process_time() - start < 0.1
+
+
+def test_read_takes_bytes_as_soon_as_they_are_there(line, devices):
+    near, path = line
+    device = devices(path)
+    durations = []
+    for _ in range(20):
+        os.write(near, b'x')
+        start = time.monotonic()
+        assert receive(device, 1) == b'x'
+        durations.append(time.monotonic() - start)
+    assert min(durations) < Device.LONGEST_WAIT / 2.0
+
+
+def test_pseudo_terminal_that_goes_away_raises_oserror():
+    near, far = os.openpty()
+    device = Device(os.ttyname(far), BAUD_RATE)
+    os.close(far)
+    os.write(near, b'x')
+    assert receive(device, 1) == b'x'
+    os.close(near)
+    with pytest.raises(OSError):
+        read_until_gone(device)
+    device.close()
+
+
+def test_tcp_connection_that_ends_raises_oserror(listener, devices):
+    server, url = listener
+    device = devices(url)
+    client, _ = server.accept()
+    client.sendall(b'last words')
+    assert receive(device, 10) == b'last words'
+    client.close()
+    with pytest.raises(OSError):
+        read_until_gone(device)
+
+
+def test_nothing_at_the_path_raises_oserror(tmp_path):
+    with pytest.raises(OSError):
+        Device(str(tmp_path / 'nothing'), BAUD_RATE)
+
+
+def test_file_that_is_no_terminal_raises_oserror(tmp_path):
+    path = tmp_path / 'text'
+    path.write_text('no terminal')
+    with pytest.raises(OSError):
+        Device(str(path), BAUD_RATE)
+
+
+def test_nobody_at_the_address_raises_oserror(listener):
+    server, url = listener
+    server.close()
+    with pytest.raises(OSError):
+        Device(url, BAUD_RATE)
+
+
+@pytest.mark.parametrize('url', ['nonsense://127.0.0.1:5000', 'http://127.0.0.1'])
+def test_url_of_an_unknown_kind_raises_valueerror(url):
+    with pytest.raises(ValueError):
+        Device(url, BAUD_RATE)
+    with pytest.raises(ValueError):
+        check_url(url)
+
+
+@pytest.mark.parametrize('url', ['/dev/ttyUSB0', '/nowhere/sensor', 'socket://127.0.0.1:5000'])
+def test_url_of_a_known_kind_is_good_whether_the_device_is_there_or_not(url):
+    assert check_url(url) is None
+
+
+@pytest.mark.parametrize(
+    'url',
+    [
+        'socket://',
+        'socket://127.0.0.1',
+        'socket://:5000',
+        'socket://127.0.0.1:port',
+        'socket://127.0.0.1:65536',
+        'socket://127.0.0.1:-1',
+    ],
+)
+def test_socket_without_host_and_port_is_refused_with_what_was_expected(url):
+    for refuse in (check_url, socket_address):
+        with pytest.raises(ValueError, match=f'^expected socket://host:port, got {url!r}$'):
+            refuse(url)
+
+
+def test_socket_address_is_host_and_port():
+    assert socket_address('socket://127.0.0.1:54320') == ('127.0.0.1', 54320)
+    assert socket_address('socket://robot:0') == ('robot', 0)
+    assert socket_address('socket://[::1]:65535') == ('::1', 65535)
+
+
+def test_closed_device_can_be_opened_again(line):
+    near, path = line
+    for data in (b'one', b'two'):
+        device = Device(path, BAUD_RATE)
+        os.write(near, data)
+        assert receive(device, 3) == data
+        device.close()

@@ -1,0 +1,76 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Rotations about z against the definition of a quaternion: (sin(yaw / 2) z, cos(yaw / 2))."""
+
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tactile_push.tactile import quaternion_of_yaw, yaw_of_quaternion
+
+PROPERTY = settings(derandomize=True, deadline=None, max_examples=60)
+HALF = math.sqrt(0.5)
+
+
+@pytest.mark.parametrize(
+    ('degrees', 'z', 'w'),
+    [(0, 0, 1), (90, HALF, HALF), (-90, -HALF, HALF), (180, 1, 0), (60, 0.5, math.sqrt(0.75))],
+)
+def test_known_rotations(degrees, z, w):
+    assert quaternion_of_yaw(math.radians(degrees)) == pytest.approx((z, w), abs=1e-15)
+    assert math.degrees(yaw_of_quaternion(z, w)) == pytest.approx(degrees)
+
+
+@given(yaw=st.floats(-100.0, 100.0), length=st.floats(1e-3, 1e3))
+@PROPERTY
+def test_yaw_comes_back_whatever_the_length_of_the_quaternion(yaw, length):
+    z, w = quaternion_of_yaw(yaw)
+    assert math.hypot(z, w) == pytest.approx(1.0, abs=1e-12)
+    back = yaw_of_quaternion(length * z, length * w)
+    assert -math.pi <= back <= math.pi
+    assert (math.cos(back), math.sin(back)) == pytest.approx(
+        (math.cos(yaw), math.sin(yaw)), abs=1e-12
+    )
+
+
+@given(yaw=st.floats(-3.1, 3.1))
+@PROPERTY
+def test_both_quaternions_of_a_rotation_give_the_same_yaw(yaw):
+    z, w = quaternion_of_yaw(yaw)
+    assert yaw_of_quaternion(z, w) == pytest.approx(yaw, abs=1e-12)
+    assert yaw_of_quaternion(-z, -w) == pytest.approx(yaw, abs=1e-12)
+
+
+@given(yaw=st.floats(-10.0, 10.0), x=st.floats(-1.0, 1.0), y=st.floats(-1.0, 1.0))
+@PROPERTY
+def test_quaternion_turns_a_vector_counterclockwise_by_the_yaw(yaw, x, y):
+    z, w = quaternion_of_yaw(yaw)
+    # v' = v + 2 q x (q x v + w v) with the vector part q = (0, 0, z)
+    inner_x, inner_y = -z * y + w * x, z * x + w * y
+    turned = (x - 2.0 * z * inner_y, y + 2.0 * z * inner_x)
+    expected = (
+        x * math.cos(yaw) - y * math.sin(yaw),
+        x * math.sin(yaw) + y * math.cos(yaw),
+    )
+    assert turned == pytest.approx(expected, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ('z', 'w'),
+    [(0.0, 0.0), (math.nan, 1.0), (0.0, math.nan), (math.inf, 1.0), (0.0, -math.inf)],
+)
+def test_components_that_are_no_rotation_give_no_yaw(z, w):
+    assert math.isnan(yaw_of_quaternion(z, w))
