@@ -175,6 +175,19 @@ def test_missing_parameter_file_is_refused_on_one_line(environment, tmp_path):
     assert 'missing.yaml' in refused(environment, '--ros-args', '--params-file', str(path))
 
 
+@pytest.mark.parametrize(
+    'arguments',
+    [
+        ('--ros-args', '-r', '__ns:=bad//name'),  # rcl would warn of it, too
+        ('--ros-args', '-p', 'nothing'),
+        ('nonsense',),
+    ],
+    ids=' '.join,
+)
+def test_bad_argument_is_refused_on_one_line(environment, arguments):
+    assert arguments[-1] in refused(environment, *arguments)
+
+
 def test_place_that_cannot_be_served_is_refused_by_name(environment, tmp_path):
     place = tmp_path / 'nowhere' / 'sensor'
     line = refused(environment, '--ros-args', '-p', f'device:={place}', node='sim_plant')

@@ -213,6 +213,15 @@ def test_dangling_link_of_a_killed_process_is_replaced(path):
     assert not os.path.lexists(path)
 
 
+def test_pseudo_terminal_is_raw_for_a_reader_that_does_not_make_it_so(path):
+    server = serve(path)
+    reader = os.open(path, os.O_RDONLY | os.O_NOCTTY | os.O_NONBLOCK)
+    server.send(LINE)
+    assert os.read(reader, 100) == LINE
+    os.close(reader)
+    server.close()
+
+
 def test_folder_that_is_not_there_is_refused_by_name(tmp_path):
     with pytest.raises(OSError, match='nowhere/sensor'):
         serve(str(tmp_path / 'nowhere' / 'sensor'))
