@@ -21,12 +21,13 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import IO, Any
 
 DOMAINS = range(1, 101)  # ids that need no port among the ephemeral ones
-STOP_TIMEOUT = 5.0  # for a process to end after SIGINT before it is killed [s]
+STOP_TIMEOUT = 5.0  # for all processes to end after SIGINT before the rest is killed [s]
 
 
 class NodeProcesses:
@@ -121,9 +122,10 @@ class NodeProcesses:
         for process in self.running.values():
             if process.poll() is None:
                 process.send_signal(signal.SIGINT)
+        deadline = time.monotonic() + STOP_TIMEOUT
         for process in self.running.values():
             try:
-                process.wait(STOP_TIMEOUT)
+                process.wait(max(0.0, deadline - time.monotonic()))
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()

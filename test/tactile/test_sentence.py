@@ -358,7 +358,7 @@ near_sentences = st.builds(
 
 @given(body=near_sentences)
 @example(body=b'PTACT,1,A,90.0000,0.0,')
-@settings(derandomize=True, deadline=None, max_examples=300)
+@settings(derandomize=True, deadline=None, max_examples=200)
 def test_bytes_near_a_sentence_give_no_reading_that_is_not_finite(body):
     accepts_safely(sentence_of(body))
 
