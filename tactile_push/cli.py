@@ -15,10 +15,12 @@
 
 import argparse
 import json
+import signal
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import FrameType
+from typing import TYPE_CHECKING, NoReturn
 
 if TYPE_CHECKING:
     from tactile_push.demo import RigResult
@@ -60,10 +62,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     demo.add_argument('--json', action='store_true', help='print one JSON object, SI units')
     demo.set_defaults(run=_demo)
     options = parser.parse_args(arguments)
+    signal.signal(signal.SIGTERM, _terminate)
     try:
         return options.run(options)
     except KeyboardInterrupt:
         return 130
+
+
+def _terminate(signum: int, frame: FrameType | None) -> NoReturn:
+    """End as after an exception, so that what was started is stopped."""
+    sys.exit(128 + signum)
 
 
 def _demo(options: argparse.Namespace) -> int:

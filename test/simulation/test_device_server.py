@@ -184,6 +184,19 @@ def test_tcp_client_that_goes_leaves_the_other_alone(address):
     server.close()
 
 
+def test_tcp_clients_that_went_are_forgotten(address):
+    server = serve(address)
+    for _ in range(4):
+        device = Device(address, BAUD_RATE)
+        exchange(server, device)
+        device.close()
+    deadline = time.monotonic() + PATIENCE
+    while server._clients:
+        assert time.monotonic() < deadline, 'connections are kept for ever'
+        server.send(LINE)
+    server.close()
+
+
 def test_path_of_a_file_is_refused_and_the_file_kept(tmp_path):
     path = tmp_path / 'precious'
     path.write_text('data')

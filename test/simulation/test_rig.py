@@ -469,6 +469,18 @@ def test_push_ends_where_the_edge_ends_however_long_the_step():
     assert coarse.object_pose.y == pytest.approx(fine.object_pose.y, abs=1e-5)
 
 
+@pytest.mark.xfail(
+    strict=True,
+    reason='at the end of its edge a sticking object stops and the finger drives on, through it',
+)
+def test_finger_that_rolls_to_the_end_of_the_edge_does_not_enter_the_object():
+    rig = Rig(edge_config(0.0, 0.009, length=0.02))
+    for count in range(42):
+        rig.step(0.02 if count < 12 else -0.02, 0.02)
+        apart, along = clearance(rig)
+        assert abs(along) > 0.01 or apart >= -PENETRATION
+
+
 def test_workspace_limit_stops_the_finger_and_says_so():
     rig = Rig(paper_block())
     reach = math.sqrt(0.14**2 - 0.08**2) + 0.06  # from the start, 8 cm ahead and 6 to the left
