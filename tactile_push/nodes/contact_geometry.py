@@ -81,7 +81,7 @@ class ContactGeometry(Node):
             '',
             'largest size of cos(elevation) sin(azimuth), by which the direction of a contact '
             'sticks out of the plane of motion',
-            0.0,
+            0.001,
             1.0,
         ),
     )

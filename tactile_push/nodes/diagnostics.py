@@ -11,7 +11,7 @@
 # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
 # See the License for the specific language governing permissions and
 # limitations under the License.
-"""What a node says of itself on /diagnostics: once a second, and at once when it gets worse."""
+"""What a node says of itself on /diagnostics: once a second, and at once on a change of level."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

@@ -50,7 +50,7 @@ class Parameter:
     description : str
         What it is, in a few words.
     lower, upper : float or int, optional
-        Closed range of a number.
+        Closed range of a number; a whole number needs both.
     choices : tuple of str, optional
         All values that a text may have.
     read_only : bool, optional

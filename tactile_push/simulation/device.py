@@ -20,7 +20,6 @@ import pty
 import socket
 import tty
 from typing import Protocol
-from urllib.parse import urlsplit
 
 from tactile_push.tactile.device import socket_address
 
@@ -61,10 +60,9 @@ def serve(device: str) -> DeviceServer:
     OSError
         If the address or path is in use or not ours.
     """
-    scheme = urlsplit(device).scheme
-    if scheme == 'socket':
+    if device.startswith('socket:'):
         return TcpServer(*socket_address(device))
-    if scheme or not os.path.isabs(device):
+    if not os.path.isabs(device):
         raise ValueError(f'expected socket://host:port or an absolute path, got {device!r}')
     return PseudoTerminal(device)
 
@@ -89,7 +87,10 @@ class TcpServer:
         try:
             self._listener = socket.create_server((host, port))
         except OSError as error:
-            raise OSError(error.errno, f'{host}:{port}: {os.strerror(error.errno or 0)}') from None
+            # Some Pythons say more in strerror, and name resolution has numbers of its own.
+            named = isinstance(error, socket.gaierror)
+            reason = error.strerror if named else os.strerror(error.errno or 0)
+            raise OSError(error.errno, f'{host}:{port}: {reason}') from None
         self._listener.setblocking(False)
         self._clients: list[socket.socket] = []
 

@@ -266,7 +266,6 @@ class Rig:
         if self.touching:
             remaining -= self._push(v_x, v_y, speed, remaining)
         if remaining > 0.0:
-            # Moving away does not end in another contact with the same outline: it is convex.
             self._move(v_x, v_y, remaining)
 
     def _move(self, v_x: float, v_y: float, duration: float) -> None:
@@ -279,10 +278,17 @@ class Rig:
         )
 
     def _approach(self, v_x: float, v_y: float, speed: float, duration: float) -> float:
-        """Move the finger until it touches, by conservative advancement; give the time taken."""
+        """Move the finger until it touches and give the time taken.
+
+        The outline is convex and so is the gap over time along a straight path: Newton's method
+        comes from the left and never passes the contact.
+        """
         elapsed = 0.0
         while not self.touching and elapsed < duration:
-            advance = min(max(self.gap, TOUCH) / speed, duration - elapsed)
+            advance = duration - elapsed
+            closing = speed * math.sin(self.phi - self.theta)
+            if closing > 0.0:
+                advance = min(self.gap / closing, advance)
             self._move(v_x, v_y, advance)
             elapsed += advance
         return elapsed
