@@ -35,7 +35,7 @@ from tactile_push.processes import NodeProcesses
 
 STEPS = 450
 TRANSLATING = 400  # the step from which the paper reads off its ranges
-REAL_TIME_FACTOR = 10.0
+REAL_TIME_FACTOR = 20.0
 SENSOR_RATE = 20.0  # two readings a control period [Hz]
 STALL_TIMEOUT = 30.0  # without a step for so long the demonstration has failed [s]
 

@@ -300,8 +300,8 @@ class SimPlant(Node):
         self._publish_clock()
         stamp = self._stamp()
         self._publish_joint_states(stamp)
-        self._publish_truth(stamp)
         self._send_reading()
+        self._publish_truth(stamp)
         every = max(1, round(self._settings.sensor_rate / MARKER_RATE))
         if self._steps % every == 0 and self._markers.get_subscription_count():
             self._markers.publish(rig_markers(self._rig, stamp))
