@@ -1,4 +1,5 @@
-# make demo: run the demonstration; make test: run all tests. Both set up .venv the first time.
+# make demo: run the demonstration; make test: run all tests; make bench: measure speeds.
+# Each sets up .venv the first time.
 
 PYTHON ?= python3
 VENV := .venv
@@ -7,13 +8,16 @@ READY := $(VENV)/ready
 TEST_READY := $(VENV)/ready-to-test
 INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable
 
-.PHONY: demo test lint clean
+.PHONY: demo test lint bench clean
 
 demo: $(READY)
 	$(BIN)/tactile_push demo
 
 test: lint
 	$(BIN)/python -m pytest
+
+bench: $(TEST_READY)
+	$(BIN)/python -m pytest benchmarks/bench_*.py -s --benchmark-columns=min,median,stddev,rounds
 
 lint: $(TEST_READY)
 	$(BIN)/ruff check .

@@ -54,6 +54,7 @@ setup(
             'hypothesis>=6,<7',
             'mypy>=1.13,<3',
             'pytest>=8,<10',
+            'pytest-benchmark>=5,<6',
             'rosbags>=0.10,<1',
             'ruff>=0.8,<1',
             'setuptools<80',

@@ -20,6 +20,7 @@ from pathlib import Path
 import pytest
 import yaml
 
+import tactile_push.mechanics
 from tactile_push.nodes.contact_geometry import ContactGeometry
 from tactile_push.nodes.experiment import Experiment
 from tactile_push.nodes.push_controller import PushController
@@ -29,6 +30,7 @@ from tactile_push.tactile import decode
 
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / 'README.md').read_text()
+THEORY = (ROOT / 'docs' / 'theory.md').read_text()
 WIRE_FORMAT = (ROOT / 'docs' / 'wire_format.md').read_text()
 
 
@@ -58,6 +60,33 @@ def test_parameter_files_name_parameters_of_their_nodes_within_their_ranges(file
             assert type(value) is type(declared[name].default)
             if isinstance(value, float):
                 assert declared[name].lower <= value <= declared[name].upper
+
+
+def test_examples_of_the_library_run_as_they_stand(capsys):
+    blocks = re.findall(r'```python\n(.*?)```', README, re.DOTALL)
+    for block in blocks:
+        exec(compile(block, 'README.md', 'exec'), {})
+    assert len(blocks) == 2
+    printed = capsys.readouterr().out.splitlines()
+    assert printed[0].startswith('Pose(x=')
+    theta, d, mode = printed[1].split()
+    assert float(theta) == pytest.approx(-10.0, abs=0.05)
+    assert float(d) == pytest.approx(0.00107, abs=2e-5)
+    assert mode in ('stick', 'slip_left', 'slip_right')
+
+
+def test_theory_names_what_there_is():
+    rows = re.findall(r'^\| .* \| (.*) \|$', THEORY, re.MULTILINE)[1:]
+    names = {name for row in rows for name in re.findall(r'`([A-Za-z_.]+)`', row)}
+    assert len(names) >= 15
+    for name in names - {'estimation/translation.py', 'control/law.py'}:
+        thing = tactile_push.mechanics
+        for part in name.split('.'):
+            fields = getattr(thing, '__dataclass_fields__', {})
+            assert hasattr(thing, part) or part in fields, name
+            thing = getattr(thing, part, None)
+    for equation in range(1, 19):
+        assert f'({equation})' in THEORY
 
 
 def test_examples_of_the_wire_format_are_valid():

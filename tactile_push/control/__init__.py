@@ -13,7 +13,7 @@
 # limitations under the License.
 """The control law and when it may act: Section IV."""
 
-from tactile_push.control.law import AHEAD, PushLaw, finger_velocity
+from tactile_push.control.law import AHEAD, PushLaw, finger_velocity, push_angle
 from tactile_push.control.push_control import (
     CONTACT_LOST,
     PUSHING,
@@ -34,5 +34,6 @@ __all__ = [
     'PushLaw',
     'Tick',
     'finger_velocity',
+    'push_angle',
     'settle_step',
 ]

@@ -18,6 +18,40 @@ import math
 AHEAD = math.pi / 2.0  # the push angle of a finger at rest: the belt alone pushes
 
 
+def push_angle(
+    phi: float,
+    theta: float,
+    theta_before: float,
+    kp: float,
+    kd: float,
+    theta_desired: float,
+    phi_min: float,
+    phi_max: float,
+) -> float:
+    """Give the next push angle by (18).
+
+    Parameters
+    ----------
+    phi : float
+        Last push angle, phi(k-1) [rad].
+    theta, theta_before : float
+        Sensed angle of the pushed edge now and one period ago, theta(k) and theta(k-1) [rad].
+    kp, kd : float
+        Gains [rad/rad].
+    theta_desired : float
+        The edge's desired angle theta_d [rad].
+    phi_min, phi_max : float
+        Bounds of phi [rad].
+
+    Returns
+    -------
+    float
+        phi(k) [rad].
+    """
+    phi = phi + kp * (theta - theta_desired) + kd * (theta - theta_before)  # (18)
+    return min(max(phi, phi_min), phi_max)
+
+
 class PushLaw:
     """The law (18), one push angle a control period.
 
@@ -66,7 +100,7 @@ class PushLaw:
             Push angle to start from [rad]; straight ahead by default, which is where a finger
             at rest pushes.
         """
-        self.phi = self._clamped(phi)
+        self.phi = min(max(phi, self.phi_min), self.phi_max)
         self._theta_before = None
 
     def update(self, theta: float) -> float:
@@ -90,11 +124,16 @@ class PushLaw:
         if not math.isfinite(theta):
             raise ValueError(f'theta: expected a finite angle [rad], got {theta}')
         if self._theta_before is not None:
-            self.phi = self._clamped(
-                self.phi
-                + self.kp * (theta - self.theta_desired)
-                + self.kd * (theta - self._theta_before)
-            )  # (18)
+            self.phi = push_angle(
+                self.phi,
+                theta,
+                self._theta_before,
+                self.kp,
+                self.kd,
+                self.theta_desired,
+                self.phi_min,
+                self.phi_max,
+            )
         self._theta_before = theta
         return self.phi
 
@@ -102,9 +141,6 @@ class PushLaw:
     def saturated(self) -> bool:
         """Whether phi is at one of its bounds."""
         return not self.phi_min < self.phi < self.phi_max
-
-    def _clamped(self, phi: float) -> float:
-        return min(max(phi, self.phi_min), self.phi_max)
 
 
 def finger_velocity(phi: float, belt_speed: float) -> float:

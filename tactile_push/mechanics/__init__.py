@@ -13,20 +13,31 @@
 # limitations under the License.
 """Mechanics of a pushed object: Sections I and II of the paper."""
 
+from tactile_push.mechanics.contact import clearance, contact, piece_at, reach, tangent_angle
+from tactile_push.mechanics.exact_motion import (
+    exact_pushed_twist,
+    exact_slipping,
+    exact_sticking,
+    support_force,
+)
 from tactile_push.mechanics.friction import (
     check_friction,
     friction_cone,
     translation_contacts,
     voted_rotation,
 )
-from tactile_push.mechanics.limit_surface import EllipsoidalLimitSurface
+from tactile_push.mechanics.limit_surface import (
+    EllipsoidalLimitSurface,
+    ExactLimitSurface,
+    LimitSurface,
+)
 from tactile_push.mechanics.motion import (
     FREE,
     MODES,
     SLIP_LEFT,
     SLIP_RIGHT,
     STICK,
-    contact_rates,
+    contact_mode,
     contact_velocity,
     motion_cone,
     pushed_twist,
@@ -34,9 +45,10 @@ from tactile_push.mechanics.motion import (
     sticking_twist,
     twist_under_force,
 )
-from tactile_push.mechanics.outline import Disk, Edge, Outline, Pose
-from tactile_push.mechanics.push import push, push_rates
-from tactile_push.mechanics.support import c_points, c_uniform_circle, c_uniform_rectangle
+from tactile_push.mechanics.outline import Outline
+from tactile_push.mechanics.push import approach, move_finger, push, push_rates
+from tactile_push.mechanics.slider import Pose, Slider
+from tactile_push.mechanics.support import Support
 
 __all__ = [
     'FREE',
@@ -44,24 +56,34 @@ __all__ = [
     'SLIP_LEFT',
     'SLIP_RIGHT',
     'STICK',
-    'Disk',
-    'Edge',
     'EllipsoidalLimitSurface',
+    'ExactLimitSurface',
+    'LimitSurface',
     'Outline',
     'Pose',
-    'c_points',
-    'c_uniform_circle',
-    'c_uniform_rectangle',
+    'Slider',
+    'Support',
+    'approach',
     'check_friction',
-    'contact_rates',
+    'clearance',
+    'contact',
+    'contact_mode',
     'contact_velocity',
+    'exact_pushed_twist',
+    'exact_slipping',
+    'exact_sticking',
     'friction_cone',
     'motion_cone',
+    'move_finger',
+    'piece_at',
     'push',
     'push_rates',
     'pushed_twist',
+    'reach',
     'slipping_twist',
     'sticking_twist',
+    'support_force',
+    'tangent_angle',
     'translation_contacts',
     'twist_under_force',
     'voted_rotation',

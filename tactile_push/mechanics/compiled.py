@@ -17,9 +17,23 @@ from contextlib import suppress
 from pathlib import Path
 
 import numba
+import numpy as np
+import numpy.typing as npt
 
-compiled = numba.njit(cache=True)
+Array = npt.NDArray[np.float64]
+
+# Products and sums may fuse; infinities keep their meaning, for mu_c has one.
+_REARRANGED = {'arcp', 'contract', 'nsz'}
+_OPTIONS = {'cache': True, 'nogil': True, 'error_model': 'numpy'}
+
+compiled = numba.njit(**_OPTIONS, fastmath=_REARRANGED)
 """Decorator: compile at the first call, and keep the machine code beside the source."""
+
+equation = numba.njit(**_OPTIONS, fastmath=_REARRANGED, forceinline=True)
+"""Decorator for equations: compiled into their callers, where a call would cost more than they."""
+
+reduction = numba.njit(**_OPTIONS, fastmath=_REARRANGED | {'reassoc'})
+"""Decorator for sums over many points, which may be taken in any order."""
 
 
 def _forget_outdated(folder: Path) -> None:
@@ -28,12 +42,12 @@ def _forget_outdated(folder: Path) -> None:
     numba looks at the file of the function itself only, but the code holds the functions that it
     calls as well.
     """
-    newest = max(source.stat().st_mtime for source in folder.glob('*.py'))
-    for index in folder.glob('__pycache__/*.nbi'):
+    newest = max(source.stat().st_mtime for source in folder.rglob('*.py'))
+    for cached in folder.rglob('__pycache__/*.nb[ic]'):
         with suppress(FileNotFoundError):  # another process was faster
-            if index.stat().st_mtime < newest:
-                index.unlink()
+            if cached.stat().st_mtime < newest:
+                cached.unlink()
 
 
 with suppress(OSError):  # a folder of somebody else's, whose cache numba keeps elsewhere
-    _forget_outdated(Path(__file__).parent)
+    _forget_outdated(Path(__file__).parents[1])

@@ -11,12 +11,24 @@
 # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
 # See the License for the specific language governing permissions and
 # limitations under the License.
-"""The ellipsoidal limit surface of a sliding object (Section II.B)."""
+"""Limit surfaces of a sliding object (Section II.B): the paper's ellipsoid and the exact one."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
+
+from tactile_push.mechanics.compiled import Array
+from tactile_push.mechanics.exact_motion import (
+    STANDSTILL,
+    exact_slipping,
+    next_guess,
+    support_force,
+)
+from tactile_push.mechanics.support import Support
+
+ROUNDING = 1e-12  # of the support's places, relative to their distance from the origin
 
 
 @dataclass(frozen=True)
@@ -66,7 +78,7 @@ class EllipsoidalLimitSurface:
         f_x, f_y, m = np.asarray(wrench, dtype=float)
         return float((f_x**2 + f_y**2) / self.f_max**2 + m**2 / self.m_max**2)
 
-    def twist(self, wrench: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    def twist(self, wrench: npt.ArrayLike) -> Array:
         """Give the direction of motion under a wrench on the surface, eqs. (4) and (5).
 
         Parameters
@@ -83,7 +95,7 @@ class EllipsoidalLimitSurface:
         f_x, f_y, m = np.asarray(wrench, dtype=float)
         return np.array([f_x, f_y, m / self.c**2])
 
-    def wrench(self, twist: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    def wrench(self, twist: npt.ArrayLike) -> Array:
         """Give the wrench on the surface that keeps a motion going.
 
         Parameters
@@ -107,3 +119,161 @@ class EllipsoidalLimitSurface:
         if not level > 0.0:
             raise ValueError(f'twist: expected a motion that is not zero, got {twist!r}')
         return direction / np.sqrt(level)
+
+
+@dataclass(frozen=True, eq=False)
+class ExactLimitSurface:
+    """The limit surface of the points that an object rests on.
+
+    Parameters
+    ----------
+    support : Support
+        The support; wrenches and twists refer to its centre.
+
+    Raises
+    ------
+    ValueError
+        If all load is in one place: it resists no moment.
+    """
+
+    support: Support
+
+    def __post_init__(self) -> None:
+        offsets = self.support.points - self.support.centre
+        size = np.abs(self.support.points).max() + self.support.c
+        if not np.abs(offsets[self.support.loads > 0.0]).max() > ROUNDING * size:
+            raise ValueError(
+                'support: expected loads in more than one place, got all at '
+                f'{self.support.centre} m'
+            )
+
+    @property
+    def points(self) -> Array:
+        """Rows x, y [m] about the centre and load of the support points, shape (3, N)."""
+        return np.vstack([(self.support.points - self.support.centre).T, self.support.loads])
+
+    def wrench(self, twist: npt.ArrayLike) -> Array:
+        """Give the wrench on the surface that keeps a motion going.
+
+        Parameters
+        ----------
+        twist : array_like, shape (3,)
+            Velocity (v_x, v_y, omega) [m/s, m/s, rad/s] of the centre of friction, not zero.
+
+        Returns
+        -------
+        ndarray, shape (3,)
+            Force and moment (f_x, f_y, m) [N, N, N m]: the sum of the frictions of all points. A
+            point that stands still, whose friction may be any, counts as 0.
+
+        Raises
+        ------
+        ValueError
+            If the twist is zero: a resting object does not tell its wrench.
+        """
+        v_x, v_y, omega = np.asarray(twist, dtype=float)
+        if not (v_x or v_y or omega):
+            raise ValueError(f'twist: expected a motion that is not zero, got {twist!r}')
+        x, y, load = self.points
+        u_x, u_y = v_x - omega * y, v_y + omega * x
+        speed = np.hypot(u_x, u_y)
+        moving = speed > STANDSTILL * (math.hypot(v_x, v_y) + self.support.c * abs(omega))
+        friction = np.divide(load, speed, out=np.zeros_like(speed), where=moving)
+        return np.array(
+            [friction @ u_x, friction @ u_y, friction @ (x * u_y - y * u_x)],
+        )
+
+    def twist(self, wrench: npt.ArrayLike) -> Array:
+        """Give the direction of motion under a wrench.
+
+        Parameters
+        ----------
+        wrench : array_like, shape (3,)
+            Force and moment (f_x, f_y, m) about the centre of friction, not zero; its magnitude
+            does not matter.
+
+        Returns
+        -------
+        ndarray, shape (3,)
+            Velocity (v_x, v_y, omega), normal to the surface, scaled so that the wrench supplies
+            the power 1.
+
+        Raises
+        ------
+        ValueError
+            If the wrench is zero or not finite.
+        """
+        f_x, f_y, m = (float(value) for value in np.asarray(wrench, dtype=float))
+        force = math.hypot(f_x, f_y)
+        if not (math.isfinite(force + m) and (force or m)):
+            raise ValueError(f'wrench: expected a finite one that is not zero, got {wrench!r}')
+        if abs(m) > self.support.c * force:
+            return self._turning(f_x / m, f_y / m) / m
+        # As if the force acted at the point of its line that is nearest to the centre.
+        e_x, e_y, arm = f_x / force, f_y / force, m / force
+        x, y = arm * e_y, -arm * e_x
+        slope, omega = exact_slipping(
+            e_x, e_y, 0.0, arm / self.support.c**2, x, y, self.support.c, self.points
+        )
+        u_x, u_y = e_x - slope * e_y, e_y + slope * e_x
+        return np.array([u_x + omega * y, u_y - omega * x, omega]) / force
+
+    def level(self, wrench: npt.ArrayLike) -> float:
+        """Tell how far out a wrench is: below 1 the object rests, at 1 it slides.
+
+        Parameters
+        ----------
+        wrench : array_like, shape (3,)
+            Applied force and moment (f_x, f_y, m) [N, N, N m] about the centre of friction.
+
+        Returns
+        -------
+        float
+            Square of the factor by which the surface must grow to hold the wrench, as the left
+            side of (3) is for the ellipsoid.
+        """
+        if not np.any(np.asarray(wrench, dtype=float)):
+            return 0.0
+        twist = self.twist(wrench)
+        return float(1.0 / (twist @ self.wrench(twist)) ** 2)
+
+    def _turning(self, f_x: float, f_y: float) -> Array:
+        """Minimise the dissipation under the power 1 of the wrench (f_x, f_y, 1).
+
+        omega follows from (v_x, v_y); the dissipation is convex in these two. One root in v_y
+        within one root in v_x.
+        """
+        points = self.points
+
+        def gradient(v_x: float, v_y: float) -> tuple[float, ...]:
+            omega = 1.0 - f_x * v_x - f_y * v_y
+            p_x, p_y, m, xx, xy, yy, xm, ym, mm = support_force(v_x, v_y, omega, 0.0, 0.0, points)
+            return (
+                p_x - f_x * m,
+                p_y - f_y * m,
+                xx - 2.0 * f_x * xm + f_x * f_x * mm,
+                xy - f_x * ym - f_y * xm + f_x * f_y * mm,
+                yy - 2.0 * f_y * ym + f_y * f_y * mm,
+            )
+
+        scale, size = self.support.c, self.support.f_max
+        v_x, v_y = 0.0, 0.0
+        lower, upper, before, found = -math.inf, math.inf, math.inf, False
+        while not found:
+            floor, ceiling, before_y, found_y = -math.inf, math.inf, math.inf, False
+            while not found_y:
+                g_x, g_y, h_xx, h_xy, h_yy = gradient(v_x, v_y)
+                floor, ceiling = (v_y, ceiling) if g_y < 0.0 else (floor, v_y)
+                after, _, found_y = next_guess(
+                    v_y, g_y, h_yy, before_y, floor, ceiling, scale, size
+                )
+                g_x += h_xy * (after - v_y)
+                v_y, before_y = after, abs(g_y)
+            slope = h_xx - h_xy * h_xy / h_yy if h_yy > 0.0 else h_xx
+            lower, upper = (v_x, upper) if g_x < 0.0 else (lower, v_x)
+            after, _, found = next_guess(v_x, g_x, slope, before, lower, upper, scale, size)
+            v_x, before = after, abs(g_x)
+        return np.array([v_x, v_y, 1.0 - f_x * v_x - f_y * v_y])
+
+
+LimitSurface = EllipsoidalLimitSurface | ExactLimitSurface

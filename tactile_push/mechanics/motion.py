@@ -18,13 +18,13 @@ the normal into the object, origin at the centre of mass. The contact lies at (x
 (d, -l). The equations hold in any frame; this one spares every rotation.
 """
 
-from tactile_push.mechanics.compiled import compiled
+from tactile_push.mechanics.compiled import equation
 
 FREE, STICK, SLIP_LEFT, SLIP_RIGHT = 0, 1, 2, 3
 MODES = ('free', 'stick', 'slip_left', 'slip_right')
 
 
-@compiled
+@equation
 def contact_velocity(
     v_x: float, v_y: float, omega: float, x_c: float, y_c: float
 ) -> tuple[float, float]:
@@ -45,7 +45,7 @@ def contact_velocity(
     return v_x - omega * y_c, v_y + omega * x_c
 
 
-@compiled
+@equation
 def twist_under_force(
     f_x: float, f_y: float, x_c: float, y_c: float, c: float
 ) -> tuple[float, float, float]:
@@ -69,7 +69,7 @@ def twist_under_force(
     return f_x, f_y, m / c**2  # (4), (5)
 
 
-@compiled
+@equation
 def motion_cone(
     x_c: float, y_c: float, cos_alpha: float, sin_alpha: float, c: float
 ) -> tuple[float, float, float, float]:
@@ -96,7 +96,7 @@ def motion_cone(
     return v_lx, v_ly, v_rx, v_ry
 
 
-@compiled
+@equation
 def sticking_twist(
     v_px: float, v_py: float, x_c: float, y_c: float, c: float
 ) -> tuple[float, float, float]:
@@ -123,7 +123,7 @@ def sticking_twist(
     return v_x, v_y, omega
 
 
-@compiled
+@equation
 def slipping_twist(
     v_py: float, f_x: float, f_y: float, x_c: float, y_c: float, c: float
 ) -> tuple[float, float, float]:
@@ -151,7 +151,44 @@ def slipping_twist(
     return kappa * v_x, kappa * v_y, kappa * omega
 
 
-@compiled
+@equation
+def contact_mode(
+    v_px: float, v_py: float, f_x: float, f_y: float, cos_alpha: float, sin_alpha: float
+) -> int:
+    """Tell whether the contact sticks or slips.
+
+    The velocity of the contact turns in the same sense as the force that causes it, since a limit
+    surface is convex. So the finger's velocity is inside the motion cone if, and only if, the force
+    that it takes to stick is inside the friction cone; and the finger slips to that side of the
+    motion cone to which the force would leave the friction cone.
+
+    Parameters
+    ----------
+    v_px, v_py : float
+        Velocity of the finger [m/s].
+    f_x, f_y : float
+        Force at the contact if it sticks, in any unit.
+    cos_alpha, sin_alpha : float
+        The friction cone, see `friction_cone`.
+
+    Returns
+    -------
+    int
+        `STICK`, `SLIP_LEFT`, `SLIP_RIGHT`, or `FREE` when the finger moves away, slides along
+        without a force or rests. A finger inside the motion cone sticks even if it moves away
+        from the edge: the paper's "pulling", for which there must be friction.
+    """
+    from_left = sin_alpha * f_y + cos_alpha * f_x
+    from_right = sin_alpha * f_y - cos_alpha * f_x
+    pushes = f_y > 0.0 or (sin_alpha > 0.0 and f_x != 0.0)
+    if from_left >= 0.0 and from_right >= 0.0 and pushes:
+        return STICK
+    if v_py <= 0.0:
+        return FREE
+    return SLIP_LEFT if f_x < 0.0 else SLIP_RIGHT
+
+
+@equation
 def pushed_twist(
     v_px: float,
     v_py: float,
@@ -181,55 +218,16 @@ def pushed_twist(
     v_slip : float
         Velocity of the finger along the tangent relative to the object [m/s], eq. (14).
     mode : int
-        `STICK`, `SLIP_LEFT`, `SLIP_RIGHT`, or `FREE` when the finger moves away, slides along
-        without a force or rests. A finger inside the motion cone sticks even if it moves away
-        from the edge: the paper's "pulling".
+        `STICK`, `SLIP_LEFT`, `SLIP_RIGHT` or `FREE`, see `contact_mode`.
     """
-    v_lx, v_ly, v_rx, v_ry = motion_cone(x_c, y_c, cos_alpha, sin_alpha, c)
-    left_of_cone = v_lx * v_py - v_ly * v_px > 0.0
-    right_of_cone = v_rx * v_py - v_ry * v_px < 0.0
-    pulls = sin_alpha > 0.0 and (v_px != 0.0 or v_py != 0.0)  # without friction there is no cone
-    if not left_of_cone and not right_of_cone and (v_py > 0.0 or pulls):
-        v_x, v_y, omega = sticking_twist(v_px, v_py, x_c, y_c, c)
+    v_x, v_y, omega = sticking_twist(v_px, v_py, x_c, y_c, c)
+    # (4), (5): the force is parallel to (v_x, v_y).
+    mode = contact_mode(v_px, v_py, v_x, v_y, cos_alpha, sin_alpha)
+    if mode == STICK:
         return v_x, v_y, omega, 0.0, STICK
-    if v_py <= 0.0:
+    if mode == FREE:
         return 0.0, 0.0, 0.0, v_px, FREE
-    # The cone may be as wide as a half plane, and then both of its edges may be passed. The one
-    # that the finger slips on advances.
-    if left_of_cone and v_ly > 0.0:
-        f_x, mode = -sin_alpha, SLIP_LEFT
-    else:
-        f_x, mode = sin_alpha, SLIP_RIGHT
+    f_x = -sin_alpha if mode == SLIP_LEFT else sin_alpha
     v_x, v_y, omega = slipping_twist(v_py, f_x, cos_alpha, x_c, y_c, c)
     v_ox, _ = contact_velocity(v_x, v_y, omega, x_c, y_c)
     return v_x, v_y, omega, v_px - v_ox, mode  # (12), (14)
-
-
-@compiled
-def contact_rates(v_slip: float, omega: float, curvature: float, r: float) -> tuple[float, float]:
-    """Give the rates of the contact along the outline and of its tangent's angle.
-
-    For a flat edge this is (16). On an outline of curvature k the tangent turns with the object
-    and with the contact's travel s, so theta' = omega + k s', and the contact point of the disk
-    travels r theta' backwards: s' = v_slip - r theta'.
-
-    Parameters
-    ----------
-    v_slip : float
-        Velocity of the finger along the tangent relative to the object [m/s].
-    omega : float
-        Angular velocity of the object [rad/s].
-    curvature : float
-        Curvature of the outline at the contact [1/m]: 0 on a flat edge, 1/R on a disk.
-    r : float
-        Radius of the finger's disk [m].
-
-    Returns
-    -------
-    s_dot : float
-        Velocity of the contact along the outline [m/s]; on a flat edge the paper's d'.
-    theta_dot : float
-        Rate of theta [rad/s].
-    """
-    s_dot = (v_slip - omega * r) / (1.0 + curvature * r)  # (16)
-    return s_dot, omega + curvature * s_dot

@@ -13,48 +13,66 @@
 # limitations under the License.
 """One push: the motion of Section II.C integrated while the finger moves straight on.
 
-The rates have kinks where the contact changes between sticking and slipping, so the step is
-controlled by an embedded error estimate (Bogacki and Shampine, 1989, order 3 with 2).
+The classical Runge-Kutta method of order 4. The rates at the end of a step, which the next step
+needs anyway, give an embedded solution of order 3 and so an estimate of the error. The rates have
+kinks where the contact changes between sticking and slipping or passes from an edge to a corner:
+a solution of order 2 sees them, and the steps become short.
 """
 
 import math
 
-from tactile_push.mechanics.compiled import compiled
-from tactile_push.mechanics.motion import FREE, contact_rates, pushed_twist
+from tactile_push.mechanics.compiled import Array, compiled, equation
+from tactile_push.mechanics.contact import (
+    SIGMA,
+    TOUCH,
+    clearance,
+    contact,
+    piece_at,
+    reach,
+    rotated,
+    tangent_angle,
+)
+from tactile_push.mechanics.exact_motion import exact_pushed_twist
+from tactile_push.mechanics.motion import FREE, pushed_twist
 
-TOLERANCE = 1e-9  # of theta [rad], and of s in units of the greater of l and r, per step
+TOLERANCE = 1e-7  # estimated error of a step, of the angle [rad] and of sigma by the path's radius
+SMOOTH = 0.03  # weight of the estimate of order 2 where nothing tells of a kink
 SMALLEST_STEP = 1e-9  # of the push; how finely the end of contact is located
 
 
-@compiled
+@equation
 def push_rates(
-    theta: float,
-    s: float,
-    v: float,
-    phi: float,
-    curvature: float,
-    l: float,
+    turn: float,
+    sigma: float,
+    piece: int,
+    v_x: float,
+    v_y: float,
+    path: Array,
     c: float,
+    support: Array | None,
     cos_alpha: float,
     sin_alpha: float,
     r: float,
 ) -> tuple[float, float, int]:
-    """Give the rates of the contact coordinates during a push.
+    """Give the rates of the object's angle and of the contact during a push.
 
     Parameters
     ----------
-    theta : float
-        Angle of the pushed edge or tangent [rad].
-    s : float
-        Contact along the outline [m].
-    v, phi : float
-        Speed [m/s] and direction [rad] of the finger relative to the support.
-    curvature : float
-        Curvature of the outline [1/m]: 0 for an edge.
-    l : float
-        Distance from edge or tangent to the centre of mass [m].
+    turn : float
+        How far the object has turned since the start of the push [rad].
+    sigma : float
+        Position of the disk's centre along its path around the object [m].
+    piece : int
+        Piece of the path where it probably lies.
+    v_x, v_y : float
+        Velocity of the finger relative to the support [m/s], in the axes that the object's frame
+        had at the start of the push.
+    path : ndarray, shape (M + 1, 8)
+        Pieces of the path, see `Outline.path`.
     c : float
         Ratio m_max / f_max [m].
+    support : ndarray, shape (3, N), or None
+        Support points (x, y, load) for the exact limit surface; None for the ellipsoid.
     cos_alpha, sin_alpha : float
         The friction cone, see `friction_cone`.
     r : float
@@ -62,32 +80,35 @@ def push_rates(
 
     Returns
     -------
-    theta_dot : float
-        Rate of theta [rad/s].
-    s_dot : float
-        Rate of s [m/s].
+    omega : float
+        Angular velocity of the object [rad/s].
+    sigma_dot : float
+        Velocity of the disk's centre along its path [m/s].
     mode : int
         `FREE`, `STICK`, `SLIP_LEFT` or `SLIP_RIGHT`.
     """
-    d = s if curvature == 0.0 else 0.0
-    beta = phi - theta
-    _, _, omega, v_slip, mode = pushed_twist(
-        v * math.cos(beta), v * math.sin(beta), d, -l, cos_alpha, sin_alpha, c
-    )
-    s_dot, theta_dot = contact_rates(v_slip, omega, curvature, r)
-    return theta_dot, s_dot, mode
+    t_x, t_y, d, l = contact(sigma, piece, path, r)
+    v_x, v_y = rotated(v_x, v_y, -turn)
+    v_px, v_py = t_x * v_x + t_y * v_y, t_x * v_y - t_y * v_x
+    if support is None:
+        _, _, omega, v_slip, mode = pushed_twist(v_px, v_py, d, -l, cos_alpha, sin_alpha, c)
+    else:
+        _, _, omega, v_slip, mode = exact_pushed_twist(
+            v_px, v_py, d, -l, cos_alpha, sin_alpha, c, t_x, t_y, support
+        )
+    return omega, v_slip - omega * r, mode  # (16)
 
 
 @compiled
 def push(
-    theta: float,
-    s: float,
-    v: float,
-    phi: float,
+    angle: float,
+    sigma: float,
+    v_x: float,
+    v_y: float,
     duration: float,
-    curvature: float,
-    l: float,
+    path: Array,
     c: float,
+    support: Array | None,
     cos_alpha: float,
     sin_alpha: float,
     r: float,
@@ -96,20 +117,20 @@ def push(
 
     Parameters
     ----------
-    theta : float
-        Angle of the pushed edge or tangent at the start [rad].
-    s : float
-        Contact along the outline at the start [m].
-    v, phi : float
-        Speed [m/s] and direction [rad] of the finger relative to the support.
+    angle : float
+        Orientation of the object at the start [rad].
+    sigma : float
+        Position of the disk's centre along its path around the object at the start [m].
+    v_x, v_y : float
+        Velocity of the finger relative to the support [m/s].
     duration : float
         Duration of the push [s].
-    curvature : float
-        Curvature of the outline [1/m]: 0 for an edge.
-    l : float
-        Distance from edge or tangent to the centre of mass [m].
+    path : ndarray, shape (M + 1, 8)
+        Pieces of the path, see `Outline.path`.
     c : float
         Ratio m_max / f_max [m].
+    support : ndarray, shape (3, N), or None
+        Support points (x, y, load) for the exact limit surface; None for the ellipsoid.
     cos_alpha, sin_alpha : float
         The friction cone, see `friction_cone`.
     r : float
@@ -117,38 +138,205 @@ def push(
 
     Returns
     -------
-    theta, s : float
-        Contact coordinates at the end [rad, m].
+    angle, sigma : float
+        Orientation and contact at the end [rad, m].
     elapsed : float
         How long the finger pushed [s]: less than `duration` if it came to move along or away from
         the object, for instance because the object turned out of its way.
     mode : int
         How the contact moved at the end: `FREE`, `STICK`, `SLIP_LEFT` or `SLIP_RIGHT`.
     """
-    scale = 1.0 / max(l, r)
-    elapsed = 0.0
-    step = duration
-    a1, b1, mode = push_rates(theta, s, v, phi, curvature, l, c, cos_alpha, sin_alpha, r)
+    v_x, v_y = rotated(v_x, v_y, -angle)
+    piece = piece_at(sigma, path)
+    scale = 2.0 * math.pi / path[-1, SIGMA]
+    turn, elapsed, step = 0.0, 0.0, duration
+    omega_1, rate_1, mode = push_rates(
+        turn, sigma, piece, v_x, v_y, path, c, support, cos_alpha, sin_alpha, r
+    )
     while elapsed < duration and mode != FREE:
         last = elapsed + step >= duration
         if last:
             step = duration - elapsed
-        theta_2, s_2 = theta + step / 2 * a1, s + step / 2 * b1
-        a2, b2, _ = push_rates(theta_2, s_2, v, phi, curvature, l, c, cos_alpha, sin_alpha, r)
-        theta_3, s_3 = theta + step * 3 / 4 * a2, s + step * 3 / 4 * b2
-        a3, b3, _ = push_rates(theta_3, s_3, v, phi, curvature, l, c, cos_alpha, sin_alpha, r)
-        theta_4 = theta + step * (2 * a1 + 3 * a2 + 4 * a3) / 9
-        s_4 = s + step * (2 * b1 + 3 * b2 + 4 * b3) / 9
-        a4, b4, mode_4 = push_rates(theta_4, s_4, v, phi, curvature, l, c, cos_alpha, sin_alpha, r)
-        theta_error = step * (-5 * a1 + 6 * a2 + 8 * a3 - 9 * a4) / 72
-        s_error = step * (-5 * b1 + 6 * b2 + 8 * b3 - 9 * b4) / 72
-        error = max(abs(theta_error), abs(s_error) * scale) / TOLERANCE
+        turn_2, sigma_2 = turn + step / 2.0 * omega_1, sigma + step / 2.0 * rate_1
+        omega_2, rate_2, mode_2 = push_rates(
+            turn_2, sigma_2, piece, v_x, v_y, path, c, support, cos_alpha, sin_alpha, r
+        )
+        turn_3, sigma_3 = turn + step / 2.0 * omega_2, sigma + step / 2.0 * rate_2
+        omega_3, rate_3, mode_3 = push_rates(
+            turn_3, sigma_3, piece, v_x, v_y, path, c, support, cos_alpha, sin_alpha, r
+        )
+        turn_4, sigma_4 = turn + step * omega_3, sigma + step * rate_3
+        omega_4, rate_4, mode_4 = push_rates(
+            turn_4, sigma_4, piece, v_x, v_y, path, c, support, cos_alpha, sin_alpha, r
+        )
+        turn_5 = turn + step / 6.0 * (omega_1 + 2.0 * omega_2 + 2.0 * omega_3 + omega_4)
+        sigma_5 = sigma + step / 6.0 * (rate_1 + 2.0 * rate_2 + 2.0 * rate_3 + rate_4)
+        omega_5, rate_5, mode_5 = push_rates(
+            turn_5, sigma_5, piece, v_x, v_y, path, c, support, cos_alpha, sin_alpha, r
+        )
+        # The solution with omega_5 in the place of omega_4 is of order 3.
+        error = step / 6.0 * max(abs(omega_5 - omega_4), abs(rate_5 - rate_4) * scale)
+        # One of order 2 sees kinks anywhere in the step, and is strict where there is one.
+        bend = (
+            step
+            / 6.0
+            * max(
+                abs(omega_1 - omega_2 - omega_3 + omega_4),
+                abs(rate_1 - rate_2 - rate_3 + rate_4) * scale,
+            )
+        )
+        piece_5 = piece_at(sigma_5, path)
+        smooth = mode_2 == mode and mode_3 == mode and mode_4 == mode and mode_5 == mode
+        if smooth and piece_5 == piece:
+            bend *= SMOOTH
+        error = max(error, bend) / TOLERANCE
         smallest = step <= SMALLEST_STEP * duration
-        if mode_4 == FREE and not smallest:
+        if mode_5 == FREE and not smallest:
             step /= 2.0  # up to where the finger stops pushing, no further
             continue
-        if error <= 1.0 or smallest:
-            theta, s, mode, a1, b1 = theta_4, s_4, mode_4, a4, b4
-            elapsed = duration if last else elapsed + step
-        step *= min(5.0, max(0.2, 0.9 / max(error, 1e-6) ** (1.0 / 3.0)))
-    return theta, s, elapsed, mode
+        if not error > 1.0 or smallest:  # also if it is not a number
+            turn, sigma, omega_1, rate_1 = turn_5, sigma_5, omega_5, rate_5
+            mode, piece = mode_5, piece_5
+            elapsed += step
+            if last:
+                return angle + turn, sigma, duration, mode
+        step *= min(4.0, max(0.2, 0.9 / math.sqrt(math.sqrt(max(error, 1e-3)))))
+    return angle + turn, sigma, elapsed, mode
+
+
+@compiled
+def approach(
+    x: float,
+    y: float,
+    angle: float,
+    x_f: float,
+    y_f: float,
+    v_x: float,
+    v_y: float,
+    duration: float,
+    path: Array,
+    r: float,
+) -> tuple[float, float, bool]:
+    """Move the finger straight on until it touches an object at rest.
+
+    The outline is convex, and so is the gap over time: Newton's method comes from before the
+    contact and never passes it.
+
+    Parameters
+    ----------
+    x, y, angle : float
+        Pose of the object [m, m, rad].
+    x_f, y_f : float
+        Centre of the finger's disk at the start [m].
+    v_x, v_y : float
+        Velocity of the finger [m/s].
+    duration : float
+        How long it moves at most [s].
+    path : ndarray, shape (M + 1, 8)
+        Pieces of the disk's path around the object.
+    r : float
+        Radius of the finger's disk [m].
+
+    Returns
+    -------
+    elapsed : float
+        Time to the contact [s]; `duration` without one.
+    sigma : float
+        Where it touches, or where it was nearest at the last look [m].
+    touching : bool
+        Whether it touches.
+    """
+    elapsed = 0.0
+    while True:
+        sigma, gap = clearance(x, y, angle, x_f + v_x * elapsed, y_f + v_y * elapsed, path, r)
+        if gap <= TOUCH:
+            return elapsed, sigma, True
+        t_x, t_y, _, _ = contact(sigma, piece_at(sigma, path), path, r)
+        v_t, v_o = rotated(v_x, v_y, -angle)
+        closing = t_x * v_o - t_y * v_t
+        if not closing * (duration - elapsed) > gap:
+            return duration, sigma, False
+        if elapsed + gap / closing == elapsed:  # no number lies between
+            return elapsed, sigma, True
+        elapsed += gap / closing
+
+
+@compiled
+def move_finger(
+    x: float,
+    y: float,
+    angle: float,
+    sigma: float,
+    touching: bool,
+    x_f: float,
+    y_f: float,
+    v_x: float,
+    v_y: float,
+    duration: float,
+    path: Array,
+    c: float,
+    support: Array | None,
+    cos_alpha: float,
+    sin_alpha: float,
+    r: float,
+) -> tuple[float, float, float, float, bool, int]:
+    """Move the finger straight on, whether it touches the object from the start, later or never.
+
+    Parameters
+    ----------
+    x, y, angle : float
+        Pose of the object [m, m, rad].
+    sigma : float
+        Position of the disk's centre along its path around the object [m], if it touches.
+    touching : bool
+        Whether finger and object touch.
+    x_f, y_f : float
+        Centre of the finger's disk at the start [m].
+    v_x, v_y : float
+        Velocity of the finger relative to the support [m/s].
+    duration : float
+        Duration of the motion [s].
+    path : ndarray, shape (M + 1, 8)
+        Pieces of the path, see `Outline.path`.
+    c : float
+        Ratio m_max / f_max [m].
+    support : ndarray, shape (3, N), or None
+        Support points (x, y, load) for the exact limit surface; None for the ellipsoid.
+    cos_alpha, sin_alpha : float
+        The friction cone, see `friction_cone`.
+    r : float
+        Radius of the finger's disk [m].
+
+    Returns
+    -------
+    x, y, angle : float
+        Pose of the object at the end [m, m, rad].
+    sigma : float
+        Contact, or the nearest position along the path [m].
+    touching : bool
+        Whether finger and object touch at the end.
+    mode : int
+        How the contact moved at the end: `FREE`, `STICK`, `SLIP_LEFT` or `SLIP_RIGHT`.
+    """
+    mode = FREE
+    if not touching:
+        near, around = sigma, path[-1, SIGMA]
+        elapsed, sigma, touching = approach(x, y, angle, x_f, y_f, v_x, v_y, duration, path, r)
+        sigma += around * math.floor((near - sigma) / around + 0.5)
+        x_f, y_f, duration = x_f + v_x * elapsed, y_f + v_y * elapsed, duration - elapsed
+    if touching:
+        angle, sigma, elapsed, mode = push(
+            angle, sigma, v_x, v_y, duration, path, c, support, cos_alpha, sin_alpha, r
+        )
+        x_f, y_f, duration = x_f + v_x * elapsed, y_f + v_y * elapsed, duration - elapsed
+        if elapsed > 0.0:
+            _, _, d, l = contact(sigma, piece_at(sigma, path), path, r)
+            x, y = reach(angle + tangent_angle(sigma, path), d, l, r)
+            x, y = x_f - x, y_f - y
+    if mode == FREE:  # the object is convex and stands still: a finger that leaves it is gone
+        near = sigma
+        sigma, gap = clearance(x, y, angle, x_f + v_x * duration, y_f + v_y * duration, path, r)
+        touching = gap <= TOUCH
+        around = path[-1, SIGMA]
+        sigma += around * math.floor((near - sigma) / around + 0.5)
+    return x, y, angle, sigma, touching, mode

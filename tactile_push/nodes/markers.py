@@ -13,16 +13,18 @@
 # limitations under the License.
 """The rig as RViz shows it, in the frame `finger_disk`."""
 
+import numpy as np
+import numpy.typing as npt
 from geometry_msgs.msg import Point, Vector3
 from rclpy.time import Time
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
-from tactile_push.mechanics import Disk
 from tactile_push.simulation import Rig
 from tactile_push.tactile import quaternion_of_yaw
 
 HEIGHT = 0.02  # of what stands on the belt [m]
+SPACING = 0.002  # of points on curved outlines [m]
 STEEL = ColorRGBA(r=0.55, g=0.60, b=0.68, a=1.0)
 RUBBER = ColorRGBA(r=0.15, g=0.15, b=0.18, a=1.0)
 BELT = ColorRGBA(r=0.80, g=0.78, b=0.70, a=1.0)
@@ -47,15 +49,11 @@ def rig_markers(rig: Rig, stamp: Time) -> MarkerArray:
         One namespace a thing.
     """
     pose = rig.object_in_finger_disk
-    body = _marker(stamp, 'object', Marker.CYLINDER, STEEL)
-    body.pose.position.x, body.pose.position.y, body.pose.position.z = pose.x, pose.y, HEIGHT / 2
+    body = _marker(stamp, 'object', Marker.TRIANGLE_LIST, STEEL)
+    body.pose.position.x, body.pose.position.y = pose.x, pose.y
     body.pose.orientation.z, body.pose.orientation.w = quaternion_of_yaw(pose.angle)
-    outline = rig.config.outline
-    if isinstance(outline, Disk):
-        body.scale = Vector3(x=2 * outline.radius, y=2 * outline.radius, z=HEIGHT)
-    else:
-        body.type = Marker.CUBE
-        body.scale = Vector3(x=outline.length, y=2 * outline.l, z=HEIGHT)
+    body.scale = Vector3(x=1.0, y=1.0, z=1.0)
+    body.points = _prism(rig.config.slider.outline.points(SPACING))
     finger = _marker(stamp, 'finger', Marker.SPHERE, RUBBER)
     finger.pose.position.z = HEIGHT / 2
     finger.scale = Vector3(
@@ -90,6 +88,17 @@ def _marker(stamp: Time, namespace: str, kind: int, color: ColorRGBA) -> Marker:
     marker.header.stamp = stamp.to_msg()
     marker.pose.orientation.w = 1.0
     return marker
+
+
+def _prism(base: npt.NDArray[np.float64]) -> list[Point]:
+    """Give the triangles of a convex prism on the belt, sides and top."""
+    low = [Point(x=x, y=y, z=0.0) for x, y in base.tolist()]
+    high = [Point(x=x, y=y, z=HEIGHT) for x, y in base.tolist()]
+    triangles = []
+    for i in range(len(base)):
+        j = (i + 1) % len(base)
+        triangles += [low[i], low[j], high[j], low[i], high[j], high[i], high[0], high[i], high[j]]
+    return triangles
 
 
 def _point(direction: tuple[float, float], length: float, start: Point | None = None) -> Point:

@@ -27,7 +27,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
-from tactile_push.mechanics import Disk, Edge, c_uniform_circle, c_uniform_rectangle
+from tactile_push.mechanics import Outline, Slider, Support
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.markers import rig_markers
 from tactile_push.nodes.parameters import ConfigurationError, Parameter, declare
@@ -222,18 +222,14 @@ class SimPlant(Node):
 
     def _rig_config(self) -> RigConfig:
         p = self._settings
-        outline: Edge | Disk
         if p.object == 'block':
-            outline = Edge(p.edge_length, p.edge_to_cm)
-            uniform = c_uniform_rectangle(p.edge_length, 2.0 * p.edge_to_cm)
+            outline = Outline.rectangle(p.edge_length, 2.0 * p.edge_to_cm)
             d = p.d_initial
         else:
-            outline = Disk(p.disk_radius)
-            uniform = c_uniform_circle(p.disk_radius)
+            outline = Outline.circle(p.disk_radius)
             d = 0.0
         return RigConfig(
-            outline,
-            p.c or uniform,
+            Slider(outline, p.c or Support.uniform(outline).c),
             p.mu_c,
             p.theta_initial,
             d,

@@ -13,6 +13,18 @@
 # limitations under the License.
 """Figures."""
 
+from tactile_push.plots.figures import save_figures
 from tactile_push.plots.history import plot_history
+from tactile_push.plots.limit_surfaces import limit_surface_figure, section_figure
+from tactile_push.plots.motion_cones import motion_cone_figure
+from tactile_push.plots.simulations import step_response_figure, trajectory_figure
 
-__all__ = ['plot_history']
+__all__ = [
+    'limit_surface_figure',
+    'motion_cone_figure',
+    'plot_history',
+    'save_figures',
+    'section_figure',
+    'step_response_figure',
+    'trajectory_figure',
+]

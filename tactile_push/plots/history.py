@@ -66,7 +66,7 @@ def plot_history(
             )
         axis.set_title(title)
         axis.set_xlabel('step k')
-        axis.set_xlim(0, step[-1])
+        axis.set_xlim(0, max(step[-1], 1))
     axes[0].set_ylabel('angle [°]')
     axes[-1].legend(loc='center right', frameon=False)
     for file in files:

@@ -13,7 +13,10 @@
 # limitations under the License.
 """The rig that stands in for the hardware, alone or inside the plant node."""
 
+from tactile_push.simulation.batch import Rollouts, rollouts
 from tactile_push.simulation.device import DeviceServer, serve
+from tactile_push.simulation.experiment import experiment
+from tactile_push.simulation.files import read_object, read_support
 from tactile_push.simulation.rig import Rig, RigConfig, paper_block, paper_disk
 from tactile_push.simulation.rollout import Rollout, rollout
 
@@ -22,8 +25,13 @@ __all__ = [
     'Rig',
     'RigConfig',
     'Rollout',
+    'Rollouts',
+    'experiment',
     'paper_block',
     'paper_disk',
+    'read_object',
+    'read_support',
     'rollout',
+    'rollouts',
     'serve',
 ]

@@ -19,13 +19,17 @@ from dataclasses import dataclass
 from tactile_push.mechanics import (
     FREE,
     MODES,
-    Disk,
-    Edge,
     Outline,
     Pose,
+    Slider,
     check_friction,
+    clearance,
+    contact,
     friction_cone,
-    push,
+    move_finger,
+    piece_at,
+    reach,
+    tangent_angle,
 )
 from tactile_push.tactile import (
     NO_CONTACT,
@@ -36,9 +40,6 @@ from tactile_push.tactile import (
     reading_of_contact,
 )
 
-TOUCH = 1e-9  # a gap below this is a contact [m]
-END_OF_EDGE = 1e-6  # of a step; how finely the moment is located when the finger leaves an edge
-
 
 @dataclass(frozen=True)
 class RigConfig:
@@ -48,16 +49,14 @@ class RigConfig:
 
     Parameters
     ----------
-    outline : Edge or Disk
-        What the finger pushes.
-    c : float
-        Ratio m_max / f_max of the object's support [m].
+    slider : Slider
+        What the finger pushes; it starts on the first piece of its outline.
     mu_c : float
         Coefficient of friction between finger and object, 0 to infinity.
     theta : float
-        Angle of the pushed edge at the start [rad].
-    d : float
-        Contact along the edge at the start [m].
+        Angle of the pushed edge or tangent at the start [rad].
+    d : float or None
+        Contact along the edge at the start [m]; None for the one with the smallest d.
     belt_speed : float
         Speed of the belt, v_y [m/s].
     radius : float
@@ -71,17 +70,16 @@ class RigConfig:
         If a number is out of its range or the start is no contact that pushes.
     """
 
-    outline: Outline
-    c: float
+    slider: Slider
     mu_c: float
     theta: float
-    d: float
+    d: float | None
     belt_speed: float = 0.005
     radius: float = 0.0135
     finger: PlanarFinger = PlanarFinger(0.06, 0.08, math.pi / 2.0)
 
     def __post_init__(self) -> None:
-        for name in ('c', 'belt_speed', 'radius'):
+        for name in ('belt_speed', 'radius'):
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0.0):
                 raise ValueError(f'{name}: expected a positive finite number, got {value}')
@@ -90,8 +88,7 @@ class RigConfig:
             raise ValueError(
                 f'theta: expected an edge that faces the belt, |theta| < pi/2 rad, got {self.theta}'
             )
-        if not self.outline.bears(self.d):
-            raise ValueError(f'd: expected a contact on the edge, got {self.d} m')
+        self.slider.outline.sigma(self.radius, d=self.d)
 
 
 def paper_block(
@@ -118,7 +115,7 @@ def paper_block(
     RigConfig
         The rig.
     """
-    return RigConfig(Edge(length=0.05, l=0.02375), c, mu_c, theta, d)
+    return RigConfig(Slider(Outline.rectangle(0.05, 0.0475), c), mu_c, theta, d)
 
 
 def paper_disk(theta: float = math.radians(20.0), mu_c: float = math.inf) -> RigConfig:
@@ -136,7 +133,7 @@ def paper_disk(theta: float = math.radians(20.0), mu_c: float = math.inf) -> Rig
     RigConfig
         The rig.
     """
-    return RigConfig(Disk(radius=0.0285), 0.019, mu_c, theta, 0.0)
+    return RigConfig(Slider(Outline.circle(0.0285), 0.019), mu_c, theta, 0.0)
 
 
 class Rig:
@@ -154,10 +151,11 @@ class Rig:
         everything on it in -y, so on the belt the finger moves at +v_y.
     object_pose : Pose
         Centre of mass and orientation of the object on the belt.
-    theta, s : float
-        Angle of the edge or tangent [rad] nearest to the finger, position along it [m].
-    gap : float
-        Distance between finger and object [m]; 0 in contact, infinite beside the edge.
+    touching : bool
+        Whether finger and object touch.
+    sigma : float
+        Position of the disk's centre along its path around the object [m], where it touches or is
+        nearest.
     mode : int
         How the contact moved at the end of the last step: an index of `MODES`.
     phi : float
@@ -168,23 +166,53 @@ class Rig:
 
     def __init__(self, config: RigConfig) -> None:
         self.config = config
+        self._path = config.slider.outline.path(config.radius)
         self._friction_cone = friction_cone(config.mu_c)
         # The knuckle points across the belt, the pole along it.
         self._home = config.finger.forward(math.pi - config.finger.mount_angle, -math.pi / 2.0)
         self.finger_x = 0.0
         self.finger_y = 0.0
-        self.theta = config.theta
-        self.s = config.d
-        self.gap = 0.0
+        self.touching = True
+        self.sigma = config.slider.outline.sigma(config.radius, d=config.d)
         self.mode = FREE
         self.phi = math.pi / 2.0
         self.at_workspace_limit = False
-        self.object_pose = config.outline.pose(self.theta, self.s, 0.0, 0.0, config.radius)
+        angle = config.theta - tangent_angle(self.sigma, self._path)
+        d, l = self._contact
+        x, y = reach(config.theta, d, l, config.radius)
+        self.object_pose = Pose(-x, -y, angle)
+
+    @property
+    def theta(self) -> float:
+        """Angle of the edge or tangent that touches or is nearest to the finger [rad]."""
+        return self.object_pose.angle + tangent_angle(self.sigma, self._path)
 
     @property
     def d(self) -> float:
         """The paper's d of the contact [m]."""
-        return self.config.outline.d(self.s)
+        return self._contact[0]
+
+    @property
+    def _contact(self) -> tuple[float, float]:
+        """The paper's d and l of the contact [m]."""
+        piece = piece_at(self.sigma, self._path)
+        _, _, d, l = contact(self.sigma, piece, self._path, self.config.radius)
+        return d, l
+
+    @property
+    def gap(self) -> float:
+        """Distance between finger and object [m]."""
+        pose = self.object_pose
+        _, gap = clearance(
+            pose.x,
+            pose.y,
+            pose.angle,
+            self.finger_x,
+            self.finger_y,
+            self._path,
+            self.config.radius,
+        )
+        return gap
 
     @property
     def mode_name(self) -> str:
@@ -206,11 +234,6 @@ class Rig:
         """Pose of the object in the frame `finger_disk`."""
         pose = self.object_pose
         return Pose(pose.x - self.finger_x, pose.y - self.finger_y, pose.angle)
-
-    @property
-    def touching(self) -> bool:
-        """Whether finger and object touch."""
-        return self.gap < TOUCH
 
     @property
     def contact_directions(self) -> dict[str, tuple[float, float]]:
@@ -257,75 +280,28 @@ class Rig:
             self.at_workspace_limit = True
             v_x = 0.0
         v_y = self.config.belt_speed if belt_running else 0.0
-        speed = math.hypot(v_x, v_y)
-        if speed == 0.0:
+        if v_x == v_y == 0.0:
             self.mode = FREE
             return
         self.phi = math.atan2(v_y, v_x)
-        remaining = duration - self._approach(v_x, v_y, speed, duration)
-        if self.touching:
-            remaining -= self._push(v_x, v_y, speed, remaining)
-        if remaining > 0.0:
-            self._move(v_x, v_y, remaining)
-
-    def _move(self, v_x: float, v_y: float, duration: float) -> None:
-        """Move the finger while nothing is pushed."""
+        pose, slider = self.object_pose, self.config.slider
+        x, y, angle, self.sigma, self.touching, self.mode = move_finger(
+            pose.x,
+            pose.y,
+            pose.angle,
+            self.sigma,
+            self.touching,
+            self.finger_x,
+            self.finger_y,
+            v_x,
+            v_y,
+            duration,
+            self._path,
+            slider.c,
+            slider.points,
+            *self._friction_cone,
+            self.config.radius,
+        )
+        self.object_pose = Pose(x, y, angle)
         self.finger_x += v_x * duration
         self.finger_y += v_y * duration
-        self.mode = FREE
-        self.theta, self.s, self.gap = self.config.outline.nearest(
-            self.object_pose, self.finger_x, self.finger_y, self.config.radius
-        )
-
-    def _approach(self, v_x: float, v_y: float, speed: float, duration: float) -> float:
-        """Move the finger until it touches and give the time taken.
-
-        The outline is convex and so is the gap over time along a straight path: Newton's method
-        comes from the left and never passes the contact.
-        """
-        elapsed = 0.0
-        while not self.touching and elapsed < duration:
-            advance = duration - elapsed
-            closing = speed * math.sin(self.phi - self.theta)
-            if closing > 0.0:
-                advance = min(self.gap / closing, advance)
-            self._move(v_x, v_y, advance)
-            elapsed += advance
-        return elapsed
-
-    def _push(self, v_x: float, v_y: float, speed: float, duration: float) -> float:
-        """Push the object as long as the finger touches and pushes it; give the time taken."""
-        outline = self.config.outline
-
-        def pushed(time: float) -> tuple[float, float, float, int]:
-            return push(
-                self.theta,
-                self.s,
-                speed,
-                self.phi,
-                time,
-                outline.curvature,
-                outline.l,
-                self.config.c,
-                *self._friction_cone,
-                self.config.radius,
-            )
-
-        end = pushed(duration)
-        if not outline.bears(end[1]):  # by bisection, when the contact reaches the end of the edge
-            touching, beyond = 0.0, duration
-            while beyond - touching > END_OF_EDGE * duration:
-                middle = (touching + beyond) / 2.0
-                if outline.bears(pushed(middle)[1]):
-                    touching = middle
-                else:
-                    beyond = middle
-            end = pushed(touching)
-        self.theta, self.s, elapsed, self.mode = end
-        self.finger_x += v_x * elapsed
-        self.finger_y += v_y * elapsed
-        self.object_pose = outline.pose(
-            self.theta, self.s, self.finger_x, self.finger_y, self.config.radius
-        )
-        self.gap = 0.0
-        return elapsed

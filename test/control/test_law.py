@@ -19,7 +19,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tactile_push.control import AHEAD, PushLaw, finger_velocity
+from tactile_push.control import AHEAD, PushLaw, finger_velocity, push_angle
 
 checked = settings(derandomize=True, deadline=None, max_examples=60)
 LOWER, UPPER = math.radians(33.0), math.radians(147.0)
@@ -48,6 +48,64 @@ def test_three_steps_as_computed_by_hand():
     # - 90 degrees; + 0.5 * 0.3 - 2 * 0.1; + 0.5 * 0.35 + 2 * 0.05; + 0.5 * 0.35
     assert [value - AHEAD for value in phi] == pytest.approx([0.0, -0.05, 0.225, 0.4], abs=1e-15)
     assert law.phi == phi[-1]
+
+
+def test_push_angle_as_computed_by_hand():
+    # 1.5 + 0.5 (0.3 + 0.1) + 2 (0.3 - 0.35) = 1.6
+    phi = push_angle(1.5, 0.3, 0.35, 0.5, 2.0, -0.1, LOWER, UPPER)
+
+    assert phi == exactly(1.6)
+
+
+@pytest.mark.parametrize(
+    ('theta', 'theta_before', 'kp', 'kd', 'phi'),
+    [(0.2, 0.2, 0.1, 7.0, 1.53), (-0.1, 0.0, 3.0, 0.2, 1.48), (0.9, -0.7, 0.0, 0.0, 1.5)],
+)
+def test_push_angle_takes_each_term_of_18(theta, theta_before, kp, kd, phi):
+    # theta_d = -0.1: the proportional term alone, the derivative alone, neither.
+    found = push_angle(1.5, theta, theta_before, kp, kd, -0.1, LOWER, UPPER)
+
+    assert found == exactly(phi)
+
+
+@checked
+@given(
+    phi=st.floats(0.5, 2.5),
+    theta=st.floats(-1e6, 1e6),
+    theta_before=st.floats(-1e6, 1e6),
+    kp=gains,
+    kd=gains,
+    theta_desired=readings,
+)
+def test_push_angle_never_leaves_its_bounds(phi, theta, theta_before, kp, kd, theta_desired):
+    found = push_angle(phi, theta, theta_before, kp, kd, theta_desired, 1.0, 2.0)
+
+    free = phi + kp * (theta - theta_desired) + kd * (theta - theta_before)
+    assert 1.0 <= found <= 2.0
+    if 1.0 + 1e-6 < free < 2.0 - 1e-6:
+        assert found == pytest.approx(free, rel=0, abs=1e-6)
+    elif free >= 2.0 + 1e-6:
+        assert found == 2.0
+    elif free <= 1.0 - 1e-6:
+        assert found == 1.0
+
+
+@checked
+@given(
+    phi=st.floats(1.0, 2.1),
+    theta=readings,
+    theta_before=readings,
+    theta_desired=readings,
+    kp=gains,
+    kd=gains,
+)
+def test_mirrored_readings_give_the_mirrored_push_angle(
+    phi, theta, theta_before, theta_desired, kp, kd
+):
+    one = push_angle(phi, theta, theta_before, kp, kd, theta_desired, LOWER, UPPER)
+    other = push_angle(math.pi - phi, -theta, -theta_before, kp, kd, -theta_desired, LOWER, UPPER)
+
+    assert other - AHEAD == pytest.approx(AHEAD - one, rel=0, abs=1e-12)
 
 
 @pytest.mark.parametrize('phi', [AHEAD, 1.0, 2.0])

@@ -11,10 +11,10 @@
 # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
 # See the License for the specific language governing permissions and
 # limitations under the License.
-"""The rig as RViz shows it, against its geometry worked out by hand."""
-
 import math
+from collections import Counter
 
+import numpy as np
 import pytest
 
 pytest.importorskip('visualization_msgs')
@@ -22,8 +22,9 @@ pytest.importorskip('visualization_msgs')
 from rclpy.time import Time
 from visualization_msgs.msg import Marker
 
+from tactile_push.mechanics import Outline, Slider
 from tactile_push.nodes.markers import rig_markers
-from tactile_push.simulation import Rig, paper_block, paper_disk
+from tactile_push.simulation import Rig, RigConfig, paper_block, paper_disk
 
 STAMP = Time(seconds=12, nanoseconds=345)
 THETA = math.radians(20.0)
@@ -84,26 +85,121 @@ def test_things_shown_are_those_of_the_interface():
     assert set(by_namespace(Rig(paper_block()))) == {'belt', 'object', 'finger', *RAYS}
 
 
+def triangles_of(marker):
+    """Return the triangles of a marker in its own frame, shape (N, 3, 3)."""
+    assert marker.type == Marker.TRIANGLE_LIST
+    assert (marker.scale.x, marker.scale.y, marker.scale.z) == (1.0, 1.0, 1.0)
+    assert len(marker.points) % 3 == 0
+    return np.array([(p.x, p.y, p.z) for p in marker.points]).reshape(-1, 3, 3)
+
+
+def sides_and_top(triangles):
+    """Return the triangles of the sides, and those of the top."""
+    top = triangles[:, :, 2].min(axis=1) > 0.0
+    return triangles[~top], triangles[top]
+
+
+def area(triangles):
+    """Return the sum of the areas, as vectors that stand on the triangles."""
+    edges = triangles[:, 1:] - triangles[:, :1]
+    return np.cross(edges[:, 0], edges[:, 1]).sum(axis=0) / 2.0
+
+
+TRIANGLE = [(-0.02, -0.01), (0.03, -0.01), (-0.01, 0.02)]
+OBJECTS = {
+    'block': paper_block(),
+    'disk': paper_disk(),
+    'triangle': RigConfig(Slider(Outline.polygon(TRIANGLE), 0.01), 1.0, 0.2, 0.0),
+    'ellipse': RigConfig(Slider(Outline.ellipse(0.03, 0.02), 0.01), 1.0, 0.2, 0.0),
+}
+AREAS = {
+    'block': 0.05 * 0.0475,
+    'disk': math.pi * 0.0285**2,
+    'triangle': 0.05 * 0.03 / 2.0,
+    'ellipse': math.pi * 0.03 * 0.02,
+}
+LENGTHS = {
+    'block': 2.0 * (0.05 + 0.0475),
+    'disk': 2.0 * math.pi * 0.0285,
+    'triangle': 0.05 + math.hypot(0.04, 0.03) + math.hypot(0.01, 0.03),
+    'ellipse': 0.158654395893,  # 4 a E(sqrt(1 - b^2 / a^2))
+}
+
+
+@pytest.mark.parametrize('name', OBJECTS)
+def test_object_is_the_prism_of_its_outline_on_the_belt(name):
+    triangles = triangles_of(by_namespace(Rig(OBJECTS[name]))['object'])
+    sides, top = sides_and_top(triangles)
+    assert triangles[:, :, 2].min() == 0.0
+    height = triangles[:, :, 2].max()
+    assert 0.005 < height < 0.05
+    # The top, seen from above, and as high sides all around it: curves lose a little by chords.
+    assert area(top) == pytest.approx((0.0, 0.0, AREAS[name]), rel=2e-3, abs=1e-12)
+    around = sum(np.linalg.norm(area(side[np.newaxis])) for side in sides) / height
+    assert around == pytest.approx(LENGTHS[name], rel=1e-3)
+    if name in ('block', 'triangle'):
+        assert area(top)[2] == pytest.approx(AREAS[name], rel=1e-12)
+        assert around == pytest.approx(LENGTHS[name], rel=1e-12)
+
+
+@pytest.mark.parametrize('name', OBJECTS)
+def test_object_shows_its_outside(name):
+    # Counterclockwise seen from outside: sides away from the centre, the top up.
+    sides, top = sides_and_top(triangles_of(by_namespace(Rig(OBJECTS[name]))['object']))
+    for side in sides:
+        outward = area(side[np.newaxis])
+        assert outward[2] == 0.0
+        assert outward @ side.mean(axis=0) > 0.0
+    for triangle in top:
+        assert area(triangle[np.newaxis])[2] >= 0.0
+
+
+@pytest.mark.parametrize('name', OBJECTS)
+def test_object_has_no_gap_between_its_triangles(name):
+    # Each edge belongs to two triangles, in opposite directions, but on the belt, where there is
+    # no bottom.
+    edges = Counter()
+    for triangle in triangles_of(by_namespace(Rig(OBJECTS[name]))['object']).tolist():
+        corners = [tuple(corner) for corner in triangle]
+        if len(set(corners)) < 3:
+            continue  # the fan of the top starts and ends with nothing
+        for start, end in zip(corners, corners[1:] + corners[:1], strict=True):
+            edges[start, end] += 1
+    assert max(edges.values()) == 1
+    for start, end in edges:
+        assert (end, start) in edges or start[2] == end[2] == 0.0
+
+
+def footprint(marker):
+    """Return the points of the object's marker on the belt, seen from the finger's centre."""
+    turn = 2.0 * math.atan2(marker.pose.orientation.z, marker.pose.orientation.w)
+    low = triangles_of(marker).reshape(-1, 3)
+    low = low[low[:, 2] == 0.0][:, :2]
+    x = marker.pose.position.x + low[:, 0] * math.cos(turn) - low[:, 1] * math.sin(turn)
+    y = marker.pose.position.y + low[:, 0] * math.sin(turn) + low[:, 1] * math.cos(turn)
+    return np.stack([x, y], axis=1)
+
+
 def test_block_lies_where_it_touches_the_finger():
     block = by_namespace(Rig(paper_block()))['object']
-    assert block.type == Marker.CUBE
-    assert (block.scale.x, block.scale.y) == pytest.approx((0.05, 0.0475))
     x = (R + L) * NORMAL[0] - D * TANGENT[0]
     y = (R + L) * NORMAL[1] - D * TANGENT[1]
     assert (block.pose.position.x, block.pose.position.y) == pytest.approx((x, y))
+    assert block.pose.position.z == 0.0
     assert block.pose.orientation.z == pytest.approx(math.sin(THETA / 2.0))
     assert block.pose.orientation.w == pytest.approx(math.cos(THETA / 2.0))
-    # It stands on the belt.
-    assert block.pose.position.z == pytest.approx(block.scale.z / 2.0)
+    # Its nearest edge lies r from the finger's centre, along the normal.
+    along = footprint(block) @ np.array(NORMAL)
+    assert along.min() == pytest.approx(R)
+    assert along.max() == pytest.approx(R + 0.0475)
 
 
 def test_disk_lies_where_it_touches_the_finger():
     disk = by_namespace(Rig(paper_disk()))['object']
-    assert disk.type == Marker.CYLINDER
-    assert (disk.scale.x, disk.scale.y) == pytest.approx((0.057, 0.057))
     assert (disk.pose.position.x, disk.pose.position.y) == pytest.approx(
         ((R + 0.0285) * NORMAL[0], (R + 0.0285) * NORMAL[1])
     )
+    assert np.hypot(*footprint(disk).T).min() == pytest.approx(R, abs=1e-4)
 
 
 def test_finger_is_a_sphere_of_its_radius_at_the_origin():

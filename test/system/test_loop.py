@@ -18,7 +18,7 @@ import pytest
 from conftest import Rig, field
 
 from tactile_push.control import STATES, PushLaw, settle_step
-from tactile_push.simulation import paper_block, paper_disk, rollout
+from tactile_push.simulation import experiment, paper_block, paper_disk
 
 STEPS = 260
 
@@ -30,7 +30,7 @@ STEPS = 260
         ('disk', paper_disk(), 0.0, math.radians(1.0)),
     ],
 )
-def test_loop_settles_along_the_trajectory_of_the_pure_rollout(
+def test_loop_settles_along_the_trajectory_of_the_experiment_without_clocks_and_processes(
     rig: Rig, config, ideal, theta_desired, band
 ):
     rig.start(config)
@@ -43,7 +43,7 @@ def test_loop_settles_along_the_trajectory_of_the_pure_rollout(
     states = [m for m in rig.states if field(m, 'state') == pushing][: STEPS + 1]
     theta = np.array([field(m, 'theta') for m in states])
     phi = np.array([field(m, 'phi') for m in states])
-    expected = rollout(ideal, PushLaw(0.05, 5.0, theta_desired), STEPS)
+    expected = experiment(ideal, PushLaw(0.05, 5.0, theta_desired), STEPS)
     assert np.degrees(np.abs(theta - expected.theta)).max() < 0.5
     assert np.degrees(np.abs(phi - expected.phi)).max() < 3.0
     assert settle_step(theta, theta_desired, band) is not None

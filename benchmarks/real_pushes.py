@@ -1,0 +1,302 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Predict measured pushes from the outline and two fitted numbers, without any force data.
+
+    python benchmarks/real_pushes.py DIR [--json]
+
+DIR holds JSON files of pushes: `outline` as `tactile_push simulate --object` takes it, `tip_radius`
+[m], and `pushes`, each with `tip_start`, `tip_end` [x, y in m], `object_start` and `object_end`
+[x, y in m, yaw in rad] in one fixed frame. `published` and `object_did_not_move_baseline`, if they
+are there, are shown beside the errors.
+
+The object slides on the exact limit surface of a pressure that goes as a power of the distance from
+the centroid: one number, c, from all load in the middle to all load on the rim. The other number is
+mu_c. Both are fitted on one half of a file's pushes, every second one, and tried on the other half,
+and the other way round: every push is predicted by numbers that do not know it. `nominal` has
+nothing fitted: uniform pressure and mu_c = 0.25.
+
+The measured poses at the start of a push overlap by up to 2 mm in places. There the finger's way is
+moved out of the object along the contact normal: as if the offset were one of measurement, and
+stayed.
+"""
+
+import argparse
+import json
+import math
+import reprlib
+import sys
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.progress import Progress
+from rich.table import Table
+
+from tactile_push.mechanics import Outline, Pose, Slider, Support, clearance, tangent_angle
+from tactile_push.simulation import read_object
+
+POINTS = 200  # that stand for the support
+NOMINAL_MU_C = 0.25
+SHARES = np.arange(0.30, 0.951, 0.1)  # c as a share of what all load on the rim would give
+FRICTIONS = np.arange(0.05, 0.451, 0.1)
+PLACES = {'tip_start': 2, 'tip_end': 2, 'object_start': 3, 'object_end': 3}
+REFINEMENTS = 3  # each halves the steps of the grid around the best point
+
+
+@dataclass(frozen=True)
+class Pushes:
+    """A file of measured pushes."""
+
+    name: str
+    outline: Outline
+    tip_radius: float
+    starts: list[Pose]
+    ends: list[Pose]
+    ways: list[tuple[tuple[float, float], tuple[float, float]]]
+    published: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Errors:
+    """Errors of predicted final poses, [m] and [rad], shape (N,) each."""
+
+    position: np.ndarray
+    angle: np.ndarray
+
+    def figures(self) -> dict[str, float]:
+        """Give mean and median in millimetres and degrees."""
+        millimetres, degrees = 1000.0 * self.position, np.degrees(self.angle)
+        return {
+            'mean_mm': float(millimetres.mean()),
+            'mean_deg': float(degrees.mean()),
+            'median_mm': float(np.median(millimetres)),
+            'median_deg': float(np.median(degrees)),
+        }
+
+
+def read_pushes(file: Path) -> Pushes:
+    """Read a file of pushes."""
+    outline, _ = read_object(file)
+    content = json.loads(file.read_text())
+    try:
+        radius = _numbers('tip_radius', [content.get('tip_radius')], 1)[0]
+        if not radius > 0.0:
+            raise ValueError(f'tip_radius: expected a positive length [m], got {radius}')
+        pushes = content.get('pushes')
+        if not isinstance(pushes, list) or len(pushes) < 2:
+            raise ValueError(f'pushes: expected a list of two or more, got {reprlib.repr(pushes)}')
+        rows: dict[str, list[tuple[float, ...]]] = {key: [] for key in PLACES}
+        for k, push in enumerate(pushes):
+            for key, count in PLACES.items():
+                value = push.get(key) if isinstance(push, dict) else None
+                rows[key].append(_numbers(f'pushes[{k}]: {key}', value, count))
+        published = content.get('published', {})
+        if 'object_did_not_move_baseline' in content and isinstance(published, dict):
+            published = published | {'object did not move': content['object_did_not_move_baseline']}
+        if not isinstance(published, dict) or not all(map(_are_errors, published.values())):
+            raise ValueError(
+                'published: expected an object of errors for every model, got '
+                f'{reprlib.repr(published)}'
+            )
+    except ValueError as error:
+        raise ValueError(f'{file}: {error}') from None
+    return Pushes(
+        file.stem,
+        outline,
+        radius,
+        [Pose(*pose) for pose in rows['object_start']],
+        [Pose(*pose) for pose in rows['object_end']],
+        list(zip(rows['tip_start'], rows['tip_end'], strict=True)),
+        published,
+    )
+
+
+def _are_errors(errors: Any) -> bool:
+    return isinstance(errors, dict) and all(map(_is_number, errors.values()))
+
+
+def _is_number(value: Any) -> bool:
+    return type(value) in (int, float) and abs(value) <= sys.float_info.max
+
+
+def _numbers(name: str, value: Any, count: int) -> tuple[float, ...]:
+    if not (isinstance(value, list) and len(value) == count and all(map(_is_number, value))):
+        what = 'a finite number' if count == 1 else f'{count} finite numbers'
+        raise ValueError(f'{name}: expected {what}, got {reprlib.repr(value)}')
+    return tuple(map(float, value))
+
+
+def moved(pose: Pose, x: float, y: float) -> Pose:
+    """Give the pose of a point of the object instead of its origin's."""
+    sin, cos = math.sin(pose.angle), math.cos(pose.angle)
+    return Pose(pose.x + cos * x - sin * y, pose.y + sin * x + cos * y, pose.angle)
+
+
+def predict(pushes: Pushes, support: Support, mu_c: float) -> Errors:
+    """Predict every push and compare the final poses."""
+    slider = Slider.on(pushes.outline, support, exact=True)
+    x, y = support.centre
+    path = slider.outline.path(pushes.tip_radius)
+    position, angle = [], []
+    for begin, end, (start, stop) in zip(pushes.starts, pushes.ends, pushes.ways, strict=True):
+        pose = moved(begin, x, y)
+        sigma, gap = clearance(pose.x, pose.y, pose.angle, *start, path, pushes.tip_radius)
+        theta = pose.angle + tangent_angle(sigma, path)
+        back = min(gap, 0.0)
+        shift = -math.sin(theta) * back, math.cos(theta) * back
+        predicted = slider.pushed(
+            pose,
+            (start[0] + shift[0], start[1] + shift[1]),
+            (stop[0] + shift[0], stop[1] + shift[1]),
+            mu_c,
+            pushes.tip_radius,
+        )
+        predicted = moved(predicted, -x, -y)
+        position.append(math.hypot(predicted.x - end.x, predicted.y - end.y))
+        angle.append(abs(math.remainder(predicted.angle - end.angle, 2.0 * math.pi)))
+    return Errors(np.array(position), np.array(angle))
+
+
+def fit(pushes: Pushes, progress: Progress) -> tuple[Errors, list[dict[str, float]]]:
+    """Fit both numbers on either half of the pushes and predict the other half."""
+    length = Support.uniform(pushes.outline, POINTS).c  # weighs angles against positions
+
+    @cache
+    def errors(share: float, mu_c: float) -> Errors:
+        return predict(pushes, _radial(pushes.outline, share), mu_c)
+
+    half = np.arange(len(pushes.ways)) % 2
+    grid = [(float(share), float(mu_c)) for share in SHARES for mu_c in FRICTIONS]
+    task = progress.add_task(pushes.name, total=len(grid) + 2 * 8 * REFINEMENTS)
+    chosen: list[tuple[float, float]] = []
+    with ThreadPoolExecutor() as pool:
+
+        def cost(points: Sequence[tuple[float, float]], fold: int) -> list[float]:
+            losses = []
+            for error in pool.map(lambda point: errors(*point), points):
+                loss = error.position + length * error.angle
+                losses.append(float(loss[half == fold].mean()))
+                progress.advance(task)
+            return losses
+
+        for fold in (0, 1):
+            losses = cost(grid, fold)
+            best = grid[int(np.argmin(losses))]
+            steps = np.array([SHARES[1] - SHARES[0], FRICTIONS[1] - FRICTIONS[0]])
+            for _ in range(REFINEMENTS):
+                steps /= 2.0
+                around = [
+                    (
+                        round(min(max(best[0] + i * steps[0], 0.05), 0.98), 6),
+                        round(max(best[1] + j * steps[1], 0.0), 6),
+                    )
+                    for i in (-1, 0, 1)
+                    for j in (-1, 0, 1)
+                ]
+                best = around[int(np.argmin(cost(around, fold)))]
+            chosen.append(best)
+    progress.update(task, completed=progress.tasks[task].total)
+    first, second = (errors(*point) for point in chosen)
+    # What was fitted on the pushes of one half predicts the other.
+    fitted = Errors(
+        np.where(half == 0, second.position, first.position),
+        np.where(half == 0, second.angle, first.angle),
+    )
+    numbers = [
+        {'c_mm': 1000.0 * _radial(pushes.outline, share).c, 'mu_c': mu_c} for share, mu_c in chosen
+    ]
+    return fitted, numbers
+
+
+def main() -> int:
+    """Run the benchmark."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument('directory', metavar='DIR', type=Path, help='folder of JSON files')
+    parser.add_argument('--json', action='store_true', help='print one JSON object')
+    options = parser.parse_args()
+    files = sorted(options.directory.glob('*.json'))
+    if not files:
+        print(
+            f'real_pushes: DIR: expected JSON files in {options.directory}, got none',
+            file=sys.stderr,
+        )
+        return 2
+    results: dict[str, dict[str, Any]] = {}
+    try:
+        everything = [read_pushes(file) for file in files]
+        with Progress(console=Console(stderr=True)) as progress:
+            for pushes in everything:
+                fitted, numbers = fit(pushes, progress)
+                nominal = predict(pushes, Support.uniform(pushes.outline, POINTS), NOMINAL_MU_C)
+                results[pushes.name] = {
+                    'pushes': len(pushes.ways),
+                    'fitted': fitted.figures() | {'halves': numbers},
+                    'nominal': nominal.figures(),
+                    'published': pushes.published,
+                }
+    except (OSError, ValueError) as error:
+        print(f'real_pushes: {error}', file=sys.stderr)
+        return 2
+    if options.json:
+        print(json.dumps({'files': results}, indent=2))
+    else:
+        show(results)
+    return 0
+
+
+def show(results: dict[str, dict[str, Any]]) -> None:
+    """Print a table of all errors."""
+    table = Table('file', 'model', 'mean mm', 'mean °', 'median mm', 'median °')
+    means: dict[str, list[dict[str, float]]] = {}
+    for name, result in results.items():
+        models = {'fitted, two-fold': result['fitted'], 'nominal': result['nominal']}
+        models |= {f'published: {model}': errors for model, errors in result['published'].items()}
+        for model, errors in models.items():
+            means.setdefault(model, []).append(errors)
+            table.add_row(name, model, *_cells(errors))
+        table.add_section()
+    for model, rows in means.items():
+        if len(rows) == len(results):
+            keys = set.intersection(*(set(row) for row in rows)) - {'halves'}
+            table.add_row(
+                'mean',
+                model,
+                *_cells({key: sum(row[key] for row in rows) / len(rows) for key in keys}),
+            )
+    Console().print(table)
+    for name, result in results.items():
+        halves = '; '.join(
+            f'c = {half["c_mm"]:.1f} mm, mu_c = {half["mu_c"]:.3f}'
+            for half in result['fitted']['halves']
+        )
+        print(f'{name}: {result["pushes"]} pushes; fitted on either half: {halves}')
+
+
+def _cells(errors: dict[str, float]) -> list[str]:
+    keys = ('mean_mm', 'mean_deg', 'median_mm', 'median_deg')
+    return [f'{errors[key]:.3f}' if key in errors else '' for key in keys]
+
+
+def _radial(outline: Outline, share: float) -> Support:
+    """Give the support whose c is a share of that of a load on the rim, see `Support.radial`."""
+    return Support.radial(outline, 1.0 / (1.0 - share) - 3.0, POINTS)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,328 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Motion of a pushed object under the exact limit surface of its support points.
+
+The power that the support dissipates, sum w |v_i| over points that bear the load w and move at
+v_i, is a convex function of the object's velocity, and its gradient is the wrench that keeps this
+motion going: it holds the limit surface and its normals. Among the motions that move the contact
+as the finger asks, the least dissipating one needs no moment about the contact; the moment grows
+with omega, so this is one root. When the contact slips, the force's direction is known instead of
+the contact's velocity, and the velocity's direction is one root more.
+
+Where a support point stands still its friction is anything up to w, and the roots are jumps: both
+are kept in brackets, which shrink to them.
+"""
+
+import math
+
+from tactile_push.mechanics.compiled import Array, compiled, equation, reduction
+from tactile_push.mechanics.motion import (
+    FREE,
+    SLIP_LEFT,
+    STICK,
+    contact_mode,
+    contact_velocity,
+    sticking_twist,
+    twist_under_force,
+)
+
+STANDSTILL = 1e-13  # speed at which a support point's friction fades, of the contact's
+STANDS = 1e-300  # speed of a finger at rest [m/s]; its inverse is still a number
+SMALLEST_SQUARE = 1e-200  # of a speed [m^2/s^2]; its power -3/2 is still a number
+CONVERGED = (
+    1e-6  # last step of Newton's method, relative: what is left is of the order of its square
+)
+BISECTED = 1e-13  # last step of a bisection, relative
+
+
+@reduction
+def support_force(
+    u_x: float, u_y: float, omega: float, x_c: float, y_c: float, support: Array
+) -> tuple[float, float, float, float, float, float, float, float, float]:
+    """Give the wrench that keeps a motion going, and how it changes with the motion.
+
+    Parameters
+    ----------
+    u_x, u_y, omega : float
+        Velocity of the object's material at the reference point [m/s], not zero, and angular
+        velocity [rad/s].
+    x_c, y_c : float
+        Reference point in the object's frame [m]: the contact.
+    support : ndarray, shape (3, N)
+        Support points (x, y, load) in the object's frame.
+
+    Returns
+    -------
+    f_x, f_y, m : float
+        Force and moment about the reference point, in units of the loads and of m.
+    h_xx, h_xy, h_yy, h_xm, h_ym, h_mm : float
+        Their derivatives by (u_x, u_y, omega), a symmetric matrix.
+    """
+    floor = STANDSTILL**2 * (u_x * u_x + u_y * u_y) + SMALLEST_SQUARE
+    f_x, f_y, m = 0.0, 0.0, 0.0
+    h_xx, h_xy, h_yy, h_xm, h_ym, h_mm = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(support.shape[1]):
+        x, y = support[0, i] - x_c, support[1, i] - y_c
+        v_x, v_y = u_x - omega * y, u_y + omega * x
+        square = max(v_x * v_x + v_y * v_y, floor)
+        viscosity = support[2, i] / math.sqrt(square)  # friction over speed
+        f_x += viscosity * v_x
+        f_y += viscosity * v_y
+        m += viscosity * (x * v_y - y * v_x)
+        # Friction turns with the velocity and does not grow with it.
+        stiffness = viscosity / square
+        along = v_x * x + v_y * y
+        h_xx += stiffness * v_y * v_y
+        h_xy -= stiffness * v_x * v_y
+        h_yy += stiffness * v_x * v_x
+        h_xm -= stiffness * v_y * along
+        h_ym += stiffness * v_x * along
+        h_mm += stiffness * along * along
+    return f_x, f_y, m, h_xx, h_xy, h_yy, h_xm, h_ym, h_mm
+
+
+@equation
+def next_guess(
+    x: float,
+    value: float,
+    slope: float,
+    before: float,
+    lower: float,
+    upper: float,
+    scale: float,
+    size: float,
+) -> tuple[float, bool, bool]:
+    """Go on to the root of a function that never decreases.
+
+    Newton's method, or a bisection where that does not halve the value or leaves the bracket.
+
+    Parameters
+    ----------
+    x, value, slope : float
+        Present guess, the function and its derivative there.
+    before : float
+        Magnitude of the function at the guess before.
+    lower, upper : float
+        Bracket of the root, x one of its ends; the other may be infinite.
+    scale : float
+        What a change of x is compared with when x itself is near 0.
+    size : float
+        What the value is compared with: beside a support point it changes steeply, and a short
+        step is no sign of a root.
+
+    Returns
+    -------
+    x : float
+        The next guess.
+    smooth : bool
+        Whether Newton's method gave it.
+    found : bool
+        Whether it is the root.
+    """
+    open_ended = math.isinf(upper - lower)
+    if not abs(value) > 0.0:  # also if it is not a number
+        return x, True, True
+    if slope > 0.0 and (open_ended or abs(value) <= before / 2.0):
+        after = x - value / slope
+        if lower < after < upper:
+            short = abs(after - x) <= CONVERGED * (abs(after) + scale)
+            return after, True, short and abs(value) <= CONVERGED * size
+    if open_ended:
+        return x + math.copysign(abs(x) + scale, -value), False, False
+    after = (lower + upper) / 2.0
+    return after, False, upper - lower <= BISECTED * (abs(after) + scale)
+
+
+@compiled
+def exact_sticking(
+    u_x: float, u_y: float, omega: float, x_c: float, y_c: float, c: float, support: Array
+) -> tuple[float, float, float, float, float, float, float, float]:
+    """Give the motion that dissipates least when the contact's velocity is given.
+
+    Parameters
+    ----------
+    u_x, u_y : float
+        Velocity of the object's material at the contact [m/s], not zero.
+    omega : float
+        A first guess [rad/s].
+    x_c, y_c : float
+        Contact in the object's frame [m].
+    c : float
+        Ratio m_max / f_max [m]: the scale of lengths.
+    support : ndarray, shape (3, N)
+        Support points (x, y, load) in the object's frame.
+
+    Returns
+    -------
+    omega : float
+        Angular velocity [rad/s].
+    f_x, f_y : float
+        Force at the contact, in units of the loads.
+    s_xx, s_xy, s_yy : float
+        Derivative of the force by the contact's velocity, a symmetric matrix.
+    o_x, o_y : float
+        Derivative of omega by the contact's velocity [1/m].
+    """
+    scale = math.hypot(u_x, u_y) / c
+    lower, upper, before, smooth, found = -math.inf, math.inf, math.inf, True, False
+    f_x = f_y = h_xx = h_xy = h_yy = h_xm = h_ym = h_mm = 0.0
+    f_lx = f_ly = m_l = f_ux = f_uy = m_u = 0.0
+    while not found:
+        f_x, f_y, m, h_xx, h_xy, h_yy, h_xm, h_ym, h_mm = support_force(
+            u_x, u_y, omega, x_c, y_c, support
+        )
+        if m < 0.0:
+            lower, f_lx, f_ly, m_l = omega, f_x, f_y, m
+        else:
+            upper, f_ux, f_uy, m_u = omega, f_x, f_y, m
+        size = (f_x * u_x + f_y * u_y + m * omega) / (scale + abs(omega))  # of the moments
+        after, smooth, found = next_guess(omega, m, h_mm, before, lower, upper, scale, size)
+        step, omega, before = after - omega, after, abs(m)
+        f_x, f_y = f_x + h_xm * step, f_y + h_ym * step
+    if not smooth:  # a standing point's friction lies between those of both sides
+        share = m_l / (m_l - m_u)
+        f_x, f_y = f_lx + share * (f_ux - f_lx), f_ly + share * (f_uy - f_ly)
+    o_x, o_y = (-h_xm / h_mm, -h_ym / h_mm) if h_mm > 0.0 else (0.0, 0.0)
+    return omega, f_x, f_y, h_xx + h_xm * o_x, h_xy + h_xm * o_y, h_yy + h_ym * o_y, o_x, o_y
+
+
+@compiled
+def exact_slipping(
+    e_x: float,
+    e_y: float,
+    slope: float,
+    omega: float,
+    x_c: float,
+    y_c: float,
+    c: float,
+    support: Array,
+) -> tuple[float, float]:
+    """Give the motion under a force of given direction at the contact.
+
+    Parameters
+    ----------
+    e_x, e_y : float
+        Unit vector along the force, in the object's frame.
+    slope, omega : float
+        A first guess.
+    x_c, y_c : float
+        Contact in the object's frame [m].
+    c : float
+        Ratio m_max / f_max [m]: the scale of lengths.
+    support : ndarray, shape (3, N)
+        Support points (x, y, load) in the object's frame.
+
+    Returns
+    -------
+    slope : float
+        The contact moves at (e_x, e_y) + slope (-e_y, e_x), up to a positive factor.
+    omega : float
+        Angular velocity that goes with it [rad/m].
+    """
+    lower, upper, before, found = -math.inf, math.inf, math.inf, False
+    while not found:
+        omega, f_x, f_y, s_xx, s_xy, s_yy, o_x, o_y = exact_sticking(
+            e_x - slope * e_y, e_y + slope * e_x, omega, x_c, y_c, c, support
+        )
+        across = e_x * f_y - e_y * f_x
+        if across < 0.0:
+            lower = slope
+        else:
+            upper = slope
+        stiffness = s_xx * e_y * e_y - 2.0 * s_xy * e_x * e_y + s_yy * e_x * e_x
+        size = math.hypot(f_x, f_y)
+        after, smooth, found = next_guess(slope, across, stiffness, before, lower, upper, 1.0, size)
+        step, slope, before = after - slope, after, abs(across)
+        if smooth:
+            omega += step * (o_y * e_x - o_x * e_y)
+    return slope, omega
+
+
+@compiled
+def exact_pushed_twist(
+    v_px: float,
+    v_py: float,
+    x_c: float,
+    y_c: float,
+    cos_alpha: float,
+    sin_alpha: float,
+    c: float,
+    t_x: float,
+    t_y: float,
+    support: Array,
+) -> tuple[float, float, float, float, int]:
+    """Give the motion of an object that a finger pushes, whether the contact sticks or slips.
+
+    As `pushed_twist`, in the edge frame; the support points alone are in the object's frame.
+
+    Parameters
+    ----------
+    v_px, v_py : float
+        Velocity of the finger [m/s].
+    x_c, y_c : float
+        Contact relative to the centre of friction [m].
+    cos_alpha, sin_alpha : float
+        The friction cone, see `friction_cone`.
+    c : float
+        Ratio m_max / f_max [m], the scale of lengths.
+    t_x, t_y : float
+        Tangent of the edge in the object's frame.
+    support : ndarray, shape (3, N)
+        Support points (x, y, load) in the object's frame.
+
+    Returns
+    -------
+    v_x, v_y, omega : float
+        Velocity of the object at its centre of friction [m/s, m/s, rad/s].
+    v_slip : float
+        Velocity of the finger along the tangent relative to the object [m/s].
+    mode : int
+        `STICK`, `SLIP_LEFT`, `SLIP_RIGHT` or `FREE`, see `contact_mode`.
+    """
+    speed = math.hypot(v_px, v_py)
+    if speed <= STANDS:
+        return 0.0, 0.0, 0.0, 0.0, FREE
+    # The equations know no unit of time, and are solved at the speed 1.
+    along = v_px
+    v_px, v_py = v_px / speed, v_py / speed
+    x_o, y_o = t_x * x_c - t_y * y_c, t_y * x_c + t_x * y_c
+    _, _, omega = sticking_twist(v_px, v_py, x_c, y_c, c)
+    omega, f_x, f_y, _, _, _, _, _ = exact_sticking(
+        t_x * v_px - t_y * v_py, t_y * v_px + t_x * v_py, omega, x_o, y_o, c, support
+    )
+    f_x, f_y = t_x * f_x + t_y * f_y, t_x * f_y - t_y * f_x
+    mode = contact_mode(v_px, v_py, f_x, f_y, cos_alpha, sin_alpha)
+    if mode == STICK:
+        v_x, v_y = v_px + omega * y_c, v_py - omega * x_c  # (6), (7)
+        return speed * v_x, speed * v_y, speed * omega, 0.0, STICK
+    if mode == FREE:
+        return 0.0, 0.0, 0.0, along, FREE
+    f_x, f_y = -sin_alpha if mode == SLIP_LEFT else sin_alpha, cos_alpha
+    v_x, v_y, omega = twist_under_force(f_x, f_y, x_c, y_c, c)
+    v_bx, v_by = contact_velocity(v_x, v_y, omega, x_c, y_c)
+    power = f_x * v_bx + f_y * v_by
+    slope, omega = exact_slipping(
+        t_x * f_x - t_y * f_y,
+        t_y * f_x + t_x * f_y,
+        (f_x * v_by - f_y * v_bx) / power,
+        omega / power,
+        x_o,
+        y_o,
+        c,
+        support,
+    )
+    kappa = v_py / (f_y + slope * f_x)  # the object gives way to the finger along the normal
+    v_ox, omega = kappa * (f_x - slope * f_y), kappa * omega
+    v_x, v_y, v_slip = v_ox + omega * y_c, v_py - omega * x_c, v_px - v_ox  # (12), (14)
+    return speed * v_x, speed * v_y, speed * omega, speed * v_slip, mode

@@ -1,0 +1,198 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""An object that slides on its support when it is pushed: outline and limit surface together."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from tactile_push.mechanics.compiled import Array
+from tactile_push.mechanics.contact import TOUCH, clearance
+from tactile_push.mechanics.friction import check_friction, friction_cone
+from tactile_push.mechanics.limit_surface import ExactLimitSurface
+from tactile_push.mechanics.outline import Outline
+from tactile_push.mechanics.push import move_finger
+from tactile_push.mechanics.support import Support
+
+ROUNDING = 1e-6  # how far outside the outline a support point may be, in units of its length
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Position of an object's centre of mass and its orientation.
+
+    Parameters
+    ----------
+    x, y : float
+        Position [m].
+    angle : float
+        Orientation [rad], counterclockwise.
+    """
+
+    x: float
+    y: float
+    angle: float
+
+
+@dataclass(frozen=True, eq=False)
+class Slider:
+    """An object that slides on its support.
+
+    Parameters
+    ----------
+    outline : Outline
+        The outline, its origin at the centre of mass (or of friction).
+    c : float
+        Ratio m_max / f_max of the limit surface [m].
+    points : ndarray, shape (3, N), optional
+        Rows x, y [m] and load of the support points of an exact limit surface. Without them the
+        limit surface is the ellipsoid.
+
+    Raises
+    ------
+    ValueError
+        If `c` is not positive and finite, as when all support is in one place.
+    """
+
+    outline: Outline
+    c: float
+    points: Array | None = None
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.c) and self.c > 0.0):
+            raise ValueError(f'c: expected a positive length m_max / f_max [m], got {self.c}')
+
+    @classmethod
+    def on(
+        cls,
+        outline: Outline,
+        support: Support,
+        *,
+        exact: bool = False,
+        centre_of_mass: tuple[float, float] | None = None,
+    ) -> 'Slider':
+        """Put an object on its support.
+
+        Parameters
+        ----------
+        outline : Outline
+            The outline.
+        support : Support
+            What the object rests on, in the frame of the outline.
+        exact : bool, optional
+            Whether the limit surface is the exact one of the support's points instead of the
+            ellipsoid of its c.
+        centre_of_mass : tuple of float, optional
+            Centre of mass (x, y) [m], if it is known: it must lie over the support. The motion
+            depends on the centre of friction alone.
+
+        Returns
+        -------
+        Slider
+            The object; its origin is the centre of friction.
+
+        Raises
+        ------
+        ValueError
+            If support points lie outside the outline or all in one place, or the object would tip
+            over because the centre of mass lies beside all support.
+        """
+        loaded = support.points[support.loads > 0.0]
+        beyond = ~outline.contains(loaded, ROUNDING * outline.length)
+        if beyond.any():
+            raise ValueError(
+                f'support: expected points under the object, got {loaded[beyond][0]} m outside'
+            )
+        surface = ExactLimitSurface(support)
+        if centre_of_mass is not None:
+            _check_balance(loaded, centre_of_mass)
+        return cls(outline.about(*support.centre), support.c, surface.points if exact else None)
+
+    def pushed(
+        self,
+        pose: Pose,
+        start: tuple[float, float],
+        end: tuple[float, float],
+        mu_c: float,
+        r: float,
+    ) -> Pose:
+        """Predict where a finger leaves the object that moves straight from one place to another.
+
+        Parameters
+        ----------
+        pose : Pose
+            Pose of the object at the start, its origin being that of the outline.
+        start, end : tuple of float
+            Centre of the finger's disk (x, y) at both ends of its way [m].
+        mu_c : float
+            Coefficient of friction between finger and object, 0 to infinity.
+        r : float
+            Radius of the finger's disk [m].
+
+        Returns
+        -------
+        Pose
+            Pose of the object at the end.
+
+        Raises
+        ------
+        ValueError
+            If finger and object overlap at the start, or a number is out of its range.
+        """
+        check_friction(mu_c)
+        numbers = (pose.x, pose.y, pose.angle, *start, *end)
+        if not np.isfinite(numbers).all():
+            raise ValueError(f'pose, start, end: expected finite numbers, got {numbers}')
+        path = self.outline.path(r)
+        sigma, gap = clearance(pose.x, pose.y, pose.angle, *start, path, r)
+        if gap < -ROUNDING * self.outline.length:
+            raise ValueError(f'start: expected a finger clear of the object, got a gap of {gap} m')
+        x, y, angle, _, _, _ = move_finger(
+            pose.x,
+            pose.y,
+            pose.angle,
+            sigma,
+            gap <= TOUCH,
+            *start,
+            end[0] - start[0],
+            end[1] - start[1],
+            1.0,
+            path,
+            self.c,
+            self.points,
+            *friction_cone(mu_c),
+            r,
+        )
+        return Pose(x, y, angle)
+
+
+def _check_balance(points: Array, centre_of_mass: tuple[float, float]) -> None:
+    """Refuse a centre of mass with no support on one side of it, in whatever direction."""
+    if not np.isfinite(centre_of_mass).all():
+        raise ValueError(f'centre_of_mass: expected a finite point [m], got {centre_of_mass}')
+    offset = points - centre_of_mass
+    reach = np.hypot(offset[:, 0], offset[:, 1])
+    far = reach > ROUNDING * reach.max()
+    if not far.all():
+        return  # it rests on one of the points
+    angles = np.sort(np.arctan2(offset[:, 1], offset[:, 0]))
+    gaps = np.diff(angles, append=angles[0] + 2.0 * math.pi)
+    widest = int(np.argmax(gaps))
+    if gaps[widest] > math.pi + 1e-9:
+        side = math.degrees(angles[widest] + gaps[widest] / 2.0) % 360.0
+        raise ValueError(
+            f'centre_of_mass: expected a point over the support, got {centre_of_mass} m, which '
+            f'has no support on its side at {side:.0f} degrees'
+        )

@@ -1,0 +1,67 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""The paper's figures as files."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from tactile_push.plots.limit_surfaces import limit_surface_figure, section_figure
+from tactile_push.plots.motion_cones import motion_cone_figure
+from tactile_push.plots.simulations import step_response_figure, trajectory_figure
+from tactile_push.plots.style import styled
+
+FIGURES = {
+    2: limit_surface_figure,
+    3: motion_cone_figure,
+    6: section_figure,
+    7: trajectory_figure,
+    8: step_response_figure,
+}
+
+
+@styled
+def save_figures(folder: Path, progress: Callable[[str], None] | None = None) -> list[Path]:
+    """Make figures 2, 3, 6, 7 and 8 of the paper and write them as PNG and SVG.
+
+    The same figures make the same files, to the byte for one version of matplotlib.
+
+    Parameters
+    ----------
+    folder : path
+        Where to write figure_2.png, figure_2.svg, ...; made if it is not there. What is there
+        under these names is replaced.
+    progress : callable, optional
+        Told the name of each file when it is written.
+
+    Returns
+    -------
+    list of path
+        The files, in the order of the figures.
+
+    Raises
+    ------
+    OSError
+        If the folder cannot be written.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    files = []
+    for number, draw in FIGURES.items():
+        figure = draw()
+        for ending, metadata in (('png', None), ('svg', {'Date': None})):
+            file = folder / f'figure_{number}.{ending}'
+            figure.savefig(file, metadata=metadata)
+            files.append(file)
+            if progress is not None:
+                progress(file.name)
+    return files

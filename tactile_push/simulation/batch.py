@@ -1,0 +1,324 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Very many rollouts, on all cores, by the same compiled function as a single one."""
+
+import math
+import os
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+
+from tactile_push.control import AHEAD
+from tactile_push.mechanics import Slider, check_friction, friction_cone
+from tactile_push.mechanics.compiled import Array, compiled
+from tactile_push.mechanics.contact import CURVATURE
+from tactile_push.simulation.rollout import QUANTITIES, check_ahead, check_time, check_towards, run
+
+CHUNKS_PER_WORKER = 8
+PHI_MIN, PHI_MAX = math.radians(33.0), math.radians(147.0)  # V.A
+SETTLED = math.radians(3.0)  # V.C
+
+
+@dataclass(frozen=True, eq=False)
+class Rollouts:
+    """What happened in B runs.
+
+    The arrays of quantities have the shape (B, K + 1) with histories, index k being the start of
+    control period k and NaN what comes after the end of a run; without them they have the shape
+    (B,) and hold the last value of each run.
+
+    Parameters
+    ----------
+    theta : ndarray
+        Angle of the pushed edge or tangent [rad].
+    phi : ndarray
+        Push angle that drives period k [rad].
+    d : ndarray
+        Contact along the edge [m].
+    x, y : ndarray
+        Centre of mass on the belt, the finger's disk starting at the origin [m].
+    mode : ndarray
+        How the contact moved in period k: an index of `MODES`.
+    steps : ndarray of int, shape (B,)
+        Control periods at whose start finger and object touched: fewer than asked for where
+        contact was lost.
+    settle_step : ndarray of int, shape (B,)
+        First step from which theta stays within the band around its desired value; -1 where it is
+        outside at the end or contact was lost.
+    """
+
+    theta: Array
+    phi: Array
+    d: Array
+    x: Array
+    y: Array
+    mode: Array
+    steps: npt.NDArray[np.int64]
+    settle_step: npt.NDArray[np.int64]
+
+
+@compiled
+def _run_many(
+    first: int,
+    last: int,
+    starts: Array,
+    laws: Array,
+    cones: Array,
+    slider: npt.NDArray[np.int64],
+    c: Array,
+    paths: Array,
+    path_ends: npt.NDArray[np.int64],
+    points: Array | None,
+    point_ends: npt.NDArray[np.int64],
+    steps: int,
+    period: float,
+    belt_speed: float,
+    r: float,
+    band: float,
+    histories: Array,
+    ends: npt.NDArray[np.int64],
+    stop: npt.NDArray[np.int64],
+) -> None:
+    """Make the runs from `first` up to `last`."""
+    for i in range(first, last):
+        if stop[0]:
+            return
+        j = slider[i]
+        path = paths[path_ends[j] : path_ends[j + 1]]
+        if points is None:  # noqa: SIM108, which numba could not decide when compiling
+            support = None
+        else:
+            support = points[:, point_ends[j] : point_ends[j + 1]]
+        ends[i, 0], ends[i, 1] = run(
+            starts[i, 0],
+            starts[i, 1],
+            starts[i, 2],
+            laws[i, 0],
+            laws[i, 1],
+            laws[i, 2],
+            laws[i, 3],
+            laws[i, 4],
+            None,
+            steps,
+            period,
+            belt_speed,
+            path,
+            c[j],
+            support,
+            cones[i, 0],
+            cones[i, 1],
+            r,
+            band,
+            histories[i],
+        )
+
+
+def rollouts(
+    slider: Slider | Sequence[Slider],
+    *,
+    theta: npt.ArrayLike,
+    d: npt.ArrayLike = 0.0,
+    phi: npt.ArrayLike = AHEAD,
+    mu_c: npt.ArrayLike = math.inf,
+    kp: npt.ArrayLike = 0.0,
+    kd: npt.ArrayLike = 0.0,
+    theta_desired: npt.ArrayLike = 0.0,
+    phi_min: npt.ArrayLike = PHI_MIN,
+    phi_max: npt.ArrayLike = PHI_MAX,
+    steps: int,
+    period: float = 0.1,
+    belt_speed: float = 0.005,
+    radius: float = 0.0135,
+    band: float = SETTLED,
+    history: bool = False,
+) -> Rollouts:
+    """Push very many objects with the control law, on all cores.
+
+    Arguments that are array_like are broadcast against each other and the sliders to the shape
+    (B,). With both gains 0 the pushes are open loop.
+
+    Parameters
+    ----------
+    slider : Slider or sequence of Slider, length 1 or B
+        The objects, either all with the ellipsoid or all with exact limit surfaces. The same object
+        may come as often as wanted.
+    theta : array_like
+        Angle of the pushed edge or tangent at the start [rad], of the outline's first piece.
+    d : array_like, optional
+        Contact along the edge at the start [m].
+    phi : array_like, optional
+        First push angle [rad], within the bounds.
+    mu_c : array_like, optional
+        Coefficient of friction between finger and object, 0 to infinity.
+    kp, kd : array_like, optional
+        Gains of the law [rad/rad].
+    theta_desired : array_like, optional
+        Desired angle of the edge [rad].
+    phi_min, phi_max : array_like, optional
+        Bounds of the push angle [rad], in (0, pi).
+    steps : int
+        Number of control periods.
+    period : float, optional
+        Control period [s].
+    belt_speed : float, optional
+        Speed of the belt, v_y [m/s].
+    radius : float, optional
+        Effective radius of the finger's disk [m].
+    band : float, optional
+        How near theta must stay to its desired value to have settled [rad].
+    history : bool, optional
+        Whether to return every step instead of the last ones alone. The memory needed is that of
+        what is returned.
+
+    Returns
+    -------
+    Rollouts
+        The runs.
+
+    Raises
+    ------
+    ValueError
+        If a number is out of its range or not finite, a start is no contact of its object, the
+        shapes do not fit, or the sliders are of both kinds.
+    """
+    check_time(steps, period)
+    for name, value in (('belt_speed', belt_speed), ('radius', radius)):
+        if not (math.isfinite(value) and value > 0.0):
+            raise ValueError(f'{name}: expected a positive finite number, got {value}')
+    if not band >= 0.0:
+        raise ValueError(f'band: expected an angle of 0 or more [rad], got {band}')
+    sliders = [slider] if isinstance(slider, Slider) else list(slider)
+    if not sliders:
+        raise ValueError('slider: expected at least one')
+    numbers = dict(
+        theta=theta,
+        d=d,
+        phi=phi,
+        kp=kp,
+        kd=kd,
+        theta_desired=theta_desired,
+        phi_min=phi_min,
+        phi_max=phi_max,
+    )
+    arrays = {name: np.asarray(value, dtype=float) for name, value in numbers.items()}
+    for name, array in arrays.items():
+        if not np.isfinite(array).all():
+            wrong = array[~np.isfinite(array)][0]
+            raise ValueError(f'{name}: expected finite numbers, got {wrong}')
+        if name.startswith('phi'):
+            check_ahead(name, array)
+    arrays['mu_c'] = np.asarray(mu_c, dtype=float)
+    for friction in np.unique(arrays['mu_c']):
+        check_friction(float(friction))
+    index = {id(one): position for position, one in reversed(list(enumerate(sliders)))}
+    which = np.array([index[id(one)] for one in sliders])
+    shapes = {'slider': which.shape, **{name: array.shape for name, array in arrays.items()}}
+    try:
+        which, *fitting = np.broadcast_arrays(which, *arrays.values())
+        if which.ndim != 1 or which.size == 0:
+            raise ValueError
+    except ValueError:
+        given = ', '.join(f'{name} {shape}' for name, shape in shapes.items())
+        raise ValueError(
+            f'expected numbers or arrays of one shape (B,) that is not empty, got {given}'
+        ) from None
+    start = dict(zip(arrays, fitting, strict=True))
+    count = len(which)
+    check_towards(start['phi'], start['theta'])
+    beyond = (start['phi'] < start['phi_min']) | (start['phi'] > start['phi_max'])
+    if beyond.any():
+        wrong, least, most = (start[name][beyond][0] for name in ('phi', 'phi_min', 'phi_max'))
+        raise ValueError(f'phi: expected phi_min to phi_max, {least} to {most} rad, got {wrong}')
+    distinct, which = np.unique(which, return_inverse=True)
+    objects = [sliders[position] for position in distinct]
+    paths = _distinct_paths(objects, radius)
+    sigma = np.empty(count)
+    for j, one in enumerate(objects):
+        mine = which == j if len(objects) > 1 else slice(None)
+        sigma[mine] = _sigmas(one, radius, paths[j], start['d'][mine])
+    supports = [one.points for one in objects if one.points is not None]
+    if len(supports) not in (0, len(objects)):
+        raise ValueError('slider: expected all with points or all without, got both')
+    histories = np.full((count, steps + 1 if history else 1, QUANTITIES), np.nan)
+    ends = np.empty((count, 2), dtype=np.int64)
+    starts = np.stack([start['theta'], sigma, start['phi']], axis=1)
+    laws = np.stack(
+        [start[name] for name in ('kp', 'kd', 'theta_desired', 'phi_min', 'phi_max')], axis=1
+    )
+    cones = np.array([friction_cone(friction) for friction in start['mu_c'].tolist()])
+    ratios = np.array([one.c for one in objects])
+    path_ends = np.cumsum([0, *(len(path) for path in paths)])
+    point_ends = np.cumsum([0, *(points.shape[1] for points in supports)])
+    all_paths = np.concatenate(paths)
+    all_points = np.concatenate(supports, axis=1) if supports else None
+
+    def run_chunk(borders: tuple[int, int]) -> None:
+        _run_many(
+            *borders,
+            starts,
+            laws,
+            cones,
+            which,
+            ratios,
+            all_paths,
+            path_ends,
+            all_points,
+            point_ends,
+            steps,
+            period,
+            belt_speed,
+            radius,
+            band,
+            histories,
+            ends,
+            stop,
+        )
+
+    stop = np.zeros(1, dtype=np.int64)  # what the user's interrupt sets
+    workers = len(os.sched_getaffinity(0))
+    borders = np.linspace(0, count, min(count, workers * CHUNKS_PER_WORKER) + 1).astype(int)
+    with ThreadPoolExecutor(workers) as pool:
+        try:
+            chunks = [pool.submit(run_chunk, chunk) for chunk in pairwise(borders.tolist())]
+            for chunk in chunks:
+                chunk.result()
+        except BaseException:
+            stop[0] = 1
+            pool.shutdown(cancel_futures=True)
+            raise
+    reached_theta, reached_phi, reached_d, x, y, mode = np.moveaxis(
+        histories if history else histories[:, 0], -1, 0
+    )
+    return Rollouts(reached_theta, reached_phi, reached_d, x, y, mode, ends[:, 0], ends[:, 1])
+
+
+def _distinct_paths(objects: Sequence[Slider], radius: float) -> list[Array]:
+    """Give the path around each object, made once for each outline."""
+    made: dict[int, Array] = {}
+    for one in objects:
+        if id(one.outline) not in made:
+            made[id(one.outline)] = one.outline.path(radius)
+    return [made[id(one.outline)] for one in objects]
+
+
+def _sigmas(slider: Slider, radius: float, path: Array, d: Array) -> Array:
+    """Find contacts on the first piece of an outline."""
+    bounds = [slider.outline.sigma(radius, d=float(extreme)) for extreme in (d.min(), d.max())]
+    if path[0, CURVATURE] > 0.0:  # an arc has one contact with a tangent
+        return np.full(len(d), bounds[0])
+    return np.clip(d - d.min() + bounds[0], bounds[0], bounds[1])

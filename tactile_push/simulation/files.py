@@ -1,0 +1,162 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Objects and supports as JSON files, lengths in metres.
+
+An object: {"outline": OUTLINE, "centre_of_mass": [x, y]}, the centre of mass if it is known, with
+one of the outlines {"kind": "polygon", "vertices": [[x, y], ...]}, {"kind": "circle", "radius": R},
+{"kind": "ellipse", "semi_axes": [a, b]}, {"kind": "smooth", "points": [[x, y], ...]}. A support:
+{"points": [[x, y], ...], "loads": [w, ...]}, all loads alike if they are left out.
+"""
+
+import json
+import reprlib
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from tactile_push.mechanics import Outline, Support
+
+Form = tuple[Callable[[Any], bool], str]
+
+
+def read_object(file: Path) -> tuple[Outline, tuple[float, float] | None]:
+    """Read an object's outline.
+
+    Parameters
+    ----------
+    file : Path
+        A JSON file.
+
+    Returns
+    -------
+    outline : Outline
+        The outline in the file's frame.
+    centre_of_mass : tuple of float or None
+        Centre of mass (x, y) [m], if the file has one.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be read.
+    ValueError
+        If it is no such file or the outline is not convex.
+    """
+    content = _read(file)
+    outline = content.get('outline')
+    outline = outline if isinstance(outline, dict) else {}
+    kind, centre = outline.get('kind'), content.get('centre_of_mass')
+    try:
+        if not (isinstance(kind, str) and kind in OUTLINES):
+            raise ValueError(
+                f'outline: expected a kind of {", ".join(OUTLINES)}, got {reprlib.repr(kind)}'
+            )
+        make, key, form = OUTLINES[kind]
+        if key not in outline:
+            raise ValueError(f'outline: expected {key} of a {kind}, got none')
+        made = make(_checked(key, outline[key], form))
+        if centre is not None:
+            x, y = _checked('centre_of_mass', centre, PAIR)
+            centre = float(x), float(y)
+    except ValueError as error:
+        raise ValueError(f'{file}: {error}') from None
+    return made, centre
+
+
+def read_support(file: Path) -> Support:
+    """Read support points.
+
+    Parameters
+    ----------
+    file : Path
+        A JSON file.
+
+    Returns
+    -------
+    Support
+        The support.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be read.
+    ValueError
+        If it is no such file.
+    """
+    content = _read(file)
+    if 'points' not in content:
+        raise ValueError(f'{file}: expected "points", got {reprlib.repr(list(content))}')
+    try:
+        points, loads = _checked('points', content['points'], PAIRS), content.get('loads')
+        if loads is not None:
+            loads = _checked('loads', loads, NUMBERS)
+        return Support.at_points(points, loads)
+    except ValueError as error:
+        raise ValueError(f'{file}: {error}') from None
+
+
+def _read(file: Path) -> dict[str, Any]:
+    try:
+        content = json.loads(file.read_text())
+    except RecursionError:
+        raise ValueError(f'{file}: expected JSON, got one nested too deeply') from None
+    except ValueError as error:  # neither JSON nor text
+        raise ValueError(f'{file}: expected JSON: {error}') from None
+    if not isinstance(content, dict):
+        raise ValueError(f'{file}: expected a JSON object, got {type(content).__name__}')
+    return content
+
+
+def _is_number(value: Any) -> bool:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    return -sys.float_info.max <= value <= sys.float_info.max  # integers may be beyond floats
+
+
+def _is_pair(value: Any) -> bool:
+    return isinstance(value, list) and len(value) == 2 and all(map(_is_number, value))
+
+
+def _are_numbers(value: Any) -> bool:
+    return isinstance(value, list) and all(map(_is_number, value))
+
+
+def _are_pairs(value: Any) -> bool:
+    return isinstance(value, list) and all(map(_is_pair, value))
+
+
+def _checked(name: str, value: Any, form: Form) -> Any:
+    """Refuse what has another form than numbers or lists of them."""
+    fits, what = form
+    if not fits(value):
+        raise ValueError(f'{name}: expected {what}, got {reprlib.repr(value)}')
+    return value
+
+
+def _ellipse(semi_axes: list[float]) -> Outline:
+    if not min(semi_axes) > 0.0:
+        raise ValueError(f'semi_axes: expected two positive lengths [m], got {semi_axes}')
+    return Outline.ellipse(*semi_axes)
+
+
+NUMBER: Form = (_is_number, 'a finite number [m]')
+PAIR: Form = (_is_pair, 'two finite numbers [m]')
+PAIRS: Form = (_are_pairs, 'a list of points [x, y], finite numbers [m]')
+NUMBERS: Form = (_are_numbers, 'a list of finite numbers of 0 or more')
+OUTLINES: dict[str, tuple[Callable[[Any], Outline], str, Form]] = {
+    'polygon': (Outline.polygon, 'vertices', PAIRS),
+    'circle': (Outline.circle, 'radius', NUMBER),
+    'ellipse': (_ellipse, 'semi_axes', PAIR),
+    'smooth': (Outline.smooth, 'points', PAIRS),
+}
