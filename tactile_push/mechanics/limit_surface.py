@@ -150,7 +150,8 @@ class ExactLimitSurface:
     @property
     def points(self) -> Array:
         """Rows x, y [m] about the centre and load of the support points, shape (3, N)."""
-        return np.vstack([(self.support.points - self.support.centre).T, self.support.loads])
+        x, y = (self.support.points - self.support.centre).T
+        return np.array([x, y, self.support.loads])  # each row in one piece of memory
 
     def wrench(self, twist: npt.ArrayLike) -> Array:
         """Give the wrench on the surface that keeps a motion going.

@@ -63,7 +63,8 @@ class Slider:
     Raises
     ------
     ValueError
-        If `c` is not positive and finite, as when all support is in one place.
+        If `c` is not positive and finite, as when all support is in one place, or the points are
+        not finite rows.
     """
 
     outline: Outline
@@ -73,6 +74,11 @@ class Slider:
     def __post_init__(self) -> None:
         if not (math.isfinite(self.c) and self.c > 0.0):
             raise ValueError(f'c: expected a positive length m_max / f_max [m], got {self.c}')
+        if self.points is not None:
+            points = np.ascontiguousarray(self.points, dtype=float)  # or the sums would be slow
+            if points.ndim != 2 or len(points) != 3 or not np.isfinite(points).all():
+                raise ValueError(f'points: expected finite rows x, y, load, got {self.points!r}')
+            object.__setattr__(self, 'points', points)
 
     @classmethod
     def on(

@@ -430,7 +430,7 @@ def test_a_ring_turns_as_its_elliptic_integral_says(d, beta):
 def test_slipping_dissipates_least_of_all_motions_that_the_force_drives_as_much(
     standing, lean, x_c, l
 ):
-    support = resting_on(standing)
+    support = spread_under(standing)
     e = math.sin(lean), math.cos(lean)
     c = lever(support)
     reach = np.hypot(support[0] - x_c, support[1] + l).max()
@@ -918,6 +918,48 @@ def test_one_point_may_bear_almost_everything(standing, beta, x_c, l, mu_c, ligh
     assert_touching(push, *v_p, x_c, -l)
     # The heavy one moves less the heavier it is, and its friction is the finer to tell.
     assert_balanced(support, push, x_c, -l, mu_c)
+
+
+@pytest.mark.parametrize('l', [0.5, 1.0, 3.0, 40451.73585196668])
+@pytest.mark.parametrize('push', [(0.0768, 0.997), (-0.318, 0.948), (-0.493, 0.87), (0.2, 0.98)])
+def test_on_a_line_across_the_force_the_contact_never_slips_to_the_other_side(push, l):
+    # Footnote 1: the object may turn or not. Straight before the centre and without friction only
+    # rounding tells the force that it takes to stick from the normal.
+    random = np.random.default_rng(9)
+    for _ in range(200):
+        n = int(random.integers(2, 12))
+        x, weights = random.uniform(-1.0, 1.0, n), random.uniform(0.3, 2.0, n)
+        x = np.append(x, -x)
+        line = l * np.vstack([x, np.zeros_like(x)])
+        support = np.vstack([line, np.append(weights, weights)])
+
+        assert_touching(pushed(*push, 0.0, -l, 0.0, support), *push, 0.0, -l)
+
+
+@pytest.mark.parametrize('light', [1e-8, 1e-10])
+def test_one_point_may_bear_all_but_a_trace(light):
+    # A c far below the contact's distance: the motion at the contact is as exact as any.
+    random = np.random.default_rng(10)
+    for _ in range(100):
+        n = int(random.integers(3, 9))
+        support = supported(
+            random.normal(size=(n, 2)), np.append(light * random.uniform(0.3, 2.0, n - 1), 1.0)
+        )
+        beta, x_c, l = random.uniform(0.3, 2.8), random.normal(), abs(random.normal()) + 0.1
+        v_p = math.cos(beta), math.sin(beta)
+
+        push = pushed(*v_p, x_c, -l, math.inf, support)
+
+        assert_touching(push, *v_p, x_c, -l)
+        if push[4] == STICK:
+            # The heavy point's friction takes most of the moment: where it passes 0 is the root.
+            u = push[0] - push[2] * -l, push[1] + push[2] * x_c
+            step = 1e-6 * abs(push[2])
+            lower, upper = (
+                friction_sum(about_contact(*u, push[2] + s * step, x_c, -l), support, x_c, -l)[2]
+                for s in (-1.0, 1.0)
+            )
+            assert lower <= 0.0 <= upper
 
 
 @settings(derandomize=True, deadline=None, max_examples=200)

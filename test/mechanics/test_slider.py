@@ -181,3 +181,17 @@ def test_an_exact_limit_surface_has_all_points_of_the_support(exact):
         )
     else:
         assert slider.points is None
+
+
+def test_points_come_in_rows_of_one_piece_of_memory_each():
+    outline = Outline.rectangle(0.05, 0.04)
+    columns = np.array([[0.01, 0.0, 1.0], [-0.01, 0.01, 1.0], [0.0, -0.01, 1.0]])
+
+    assert Slider(outline, 0.01, columns.T).points.flags.c_contiguous
+    assert Slider.on(outline, Support.uniform(outline), exact=True).points.flags.c_contiguous
+
+
+@pytest.mark.parametrize('points', [[[0.0, 1.0]], [[0.0], [0.0], [math.nan]], [0.0, 0.0, 1.0]])
+def test_points_that_are_no_finite_rows_are_refused(points):
+    with pytest.raises(ValueError, match='points: expected finite rows x, y, load'):
+        Slider(Outline.circle(0.02), 0.01, np.array(points))

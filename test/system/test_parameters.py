@@ -72,7 +72,7 @@ def test_gains_change_at_run_time(nodes: NodeProcesses, observer: Observer):
         ('push_controller', {'kp': 1}, 'parameter kp: expected a number with a decimal point'),
         ('push_controller', {'kq': 1.0}, 'parameter kq: unknown, did you mean kp?'),
         ('sim_plant', {'object': 'cone'}, 'parameter object: expected one of block, disk'),
-        ('sim_plant', {'d_initial': 0.03}, 'd: expected a contact on the edge'),
+        ('sim_plant', {'d_initial': 0.03}, 'd: expected a contact on the outline'),
         ('sim_plant', {'device': 'serial:/x'}, 'device: expected socket://host:port'),
         ('sim_plant', {'real_time_factor': 2.0}, 'real_time_factor: expected 1.0 unless'),
         ('contact_geometry', {'max_out_of_plane': 2.0}, 'max_out_of_plane: expected a number'),
