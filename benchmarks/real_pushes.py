@@ -253,6 +253,8 @@ def main() -> int:
     except (OSError, ValueError) as error:
         print(f'real_pushes: {error}', file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        return 130
     if options.json:
         print(json.dumps({'files': results}, indent=2))
     else:

@@ -40,9 +40,8 @@ from tactile_push.mechanics.motion import (
 STANDSTILL = 1e-13  # speed at which a support point's friction fades, of the contact's
 STANDS = 1e-300  # speed of a finger at rest [m/s]; its inverse is still a number
 SMALLEST_SQUARE = 1e-200  # of a speed [m^2/s^2]; its power -3/2 is still a number
-CONVERGED = (
-    1e-6  # last step of Newton's method, relative: what is left is of the order of its square
-)
+CONVERGED = 1e-6  # last step of Newton's method and value before it, relative
+FARTHEST = 1e6  # longest step of Newton's method, relative
 BISECTED = 1e-13  # last step of a bisection, relative
 
 
@@ -135,7 +134,8 @@ def next_guess(
         return x, True, True
     if slope > 0.0 and (open_ended or abs(value) <= before / 2.0):
         after = x - value / slope
-        if lower < after < upper:
+        # A slope that is 0 but for rounding leads nowhere.
+        if lower < after < upper and abs(after - x) <= FARTHEST * (abs(x) + scale):
             short = abs(after - x) <= CONVERGED * (abs(after) + scale)
             return after, True, short and abs(value) <= CONVERGED * size
     if open_ended:
@@ -174,7 +174,7 @@ def exact_sticking(
     o_x, o_y : float
         Derivative of omega by the contact's velocity [1/m].
     """
-    scale = math.hypot(u_x, u_y) / c
+    scale = math.hypot(u_x, u_y) / (c + math.hypot(x_c, y_c))
     lower, upper, before, smooth, found = -math.inf, math.inf, math.inf, True, False
     f_x = f_y = h_xx = h_xy = h_yy = h_xm = h_ym = h_mm = 0.0
     f_lx = f_ly = m_l = f_ux = f_uy = m_u = 0.0
@@ -308,6 +308,7 @@ def exact_pushed_twist(
         return speed * v_x, speed * v_y, speed * omega, 0.0, STICK
     if mode == FREE:
         return 0.0, 0.0, 0.0, along, FREE
+    stuck = omega
     f_x, f_y = -sin_alpha if mode == SLIP_LEFT else sin_alpha, cos_alpha
     v_x, v_y, omega = twist_under_force(f_x, f_y, x_c, y_c, c)
     v_bx, v_by = contact_velocity(v_x, v_y, omega, x_c, y_c)
@@ -322,7 +323,13 @@ def exact_pushed_twist(
         c,
         support,
     )
-    kappa = v_py / (f_y + slope * f_x)  # the object gives way to the finger along the normal
-    v_ox, omega = kappa * (f_x - slope * f_y), kappa * omega
+    v_bx, v_by = f_x - slope * f_y, f_y + slope * f_x
+    past = v_px * v_by - v_py * v_bx
+    if not (v_by > 0.0 and (past < 0.0 if mode == SLIP_LEFT else past > 0.0)):
+        # Only rounding tells the force that it takes to stick from the friction cone's edge.
+        v_x, v_y = v_px + stuck * y_c, v_py - stuck * x_c
+        return speed * v_x, speed * v_y, speed * stuck, 0.0, STICK
+    kappa = v_py / v_by  # the object gives way to the finger along the normal
+    v_ox, omega = kappa * v_bx, kappa * omega
     v_x, v_y, v_slip = v_ox + omega * y_c, v_py - omega * x_c, v_px - v_ox  # (12), (14)
     return speed * v_x, speed * v_y, speed * omega, speed * v_slip, mode
