@@ -91,15 +91,13 @@ class ContactGeometry(Node):
         self._settings = declare(self, self.PARAMETERS)
         self._pole = PoleHistory(self._settings.joint_state_timeout)
         self._published = 0
-        self._published_before = 0
         self._rejected: Counter[str] = Counter()
-        self._rejected_before = 0
         self._publisher = self.create_publisher(PoseStamped, 'contact', 10)
         if self._settings.use_joint_states:
             # Before the readings: the executor serves what has arrived in this order.
             self.create_subscription(JointState, 'joint_states', self._on_joint_states, SENSOR_DATA)
         self.create_subscription(JointState, 'tactile', self._on_tactile, SENSOR_DATA)
-        self._diagnostics = Diagnostics(self, self._health)
+        self._diagnostics = Diagnostics(self, self._health, self._counts)
 
     def _on_joint_states(self, message: JointState) -> None:
         angles = dict(zip(message.name, message.position, strict=False))
@@ -142,21 +140,17 @@ class ContactGeometry(Node):
             return self._pole.at(stamp)
         return self._settings.mount_angle
 
+    def _counts(self) -> dict[str, int]:
+        rejected = {f'rejected: {reason}': count for reason, count in self._rejected.items()}
+        return {'contacts': self._published, **rejected}
+
     def _health(self) -> Health:
-        contacts = self._published - self._published_before
-        rejected = self._rejected.total() - self._rejected_before
-        self._published_before = self._published
-        self._rejected_before = self._rejected.total()
-        values = {
-            'contacts': self._published,
-            'contacts since last report': contacts,
-            **{f'rejected: {reason}': count for reason, count in self._rejected.items()},
-        }
-        if rejected:
-            return Health(WARN, 'readings without a contact', values)
-        if not contacts:
-            return Health(WARN, 'no readings', values)
-        return Health(OK, 'contact', values)
+        rates = self._diagnostics.rates
+        if any(rates[f'rejected: {reason}'] for reason in self._rejected):
+            return Health(WARN, 'readings without a contact')
+        if not rates['contacts']:
+            return Health(WARN, 'no readings')
+        return Health(OK, 'contact')
 
 
 def _seconds(message: JointState) -> float:

@@ -65,9 +65,8 @@ class SensorDriver(LifecycleNode):
         self._stopping = threading.Event()
         self._connected = False
         self._connections = 0
-        self._published_before = 0
         self._last_sentence: Time | None = None
-        self._diagnostics = Diagnostics(self, self._health)
+        self._diagnostics = Diagnostics(self, self._health, self._counts)
         if self._settings.autostart:
             autostart(self)
 
@@ -153,20 +152,19 @@ class SensorDriver(LifecycleNode):
         message.effort = [float('nan'), float('nan'), reading.normal_force]
         self._publisher.publish(message)
 
-    def _health(self) -> Health:
+    def _counts(self) -> dict[str, int]:
         stream = self._stream
-        readings = stream.received - stream.repeated
-        values = {
-            'device': self._settings.device,
+        return {
             'connections': self._connections,
-            'readings': readings,
-            'readings since last report': readings - self._published_before,
+            'readings': stream.received - stream.repeated,
             'lost': stream.lost,
             'repeated': stream.repeated,
             'sensor restarts': stream.restarts,
             **{f'dropped: {reason}': count for reason, count in stream.dropped.copy().items()},
         }
-        self._published_before = readings
+
+    def _health(self) -> Health:
+        values = {'device': self._settings.device}
         if self._reader is None:
             return Health(OK, 'inactive', values)
         if not self._connected:
@@ -176,7 +174,7 @@ class SensorDriver(LifecycleNode):
         silence = (self.get_clock().now() - self._last_sentence).nanoseconds * 1e-9
         if silence > self._settings.silence_timeout:
             return Health(ERROR, 'sensor silent', values)
-        if stream.dropped:
+        if any(self._diagnostics.rates[f'dropped: {reason}'] for reason in self._stream.dropped):
             return Health(WARN, 'sentences dropped', values)
         return Health(OK, 'reading', values)
 
