@@ -13,27 +13,60 @@
 # limitations under the License.
 """The control law and when it may act: Section IV."""
 
-from tactile_push.control.law import AHEAD, PushLaw, finger_velocity, push_angle
-from tactile_push.control.push_control import (
-    CONTACT_LOST,
+from tactile_push.control.law import (
+    AHEAD,
+    PushLaw,
+    finger_velocity,
+    motion_angle,
+    push_angle,
+)
+from tactile_push.control.limits import Limits, plausible
+from tactile_push.control.newest import Newest
+from tactile_push.control.push_control import PushControl, Tick
+from tactile_push.control.settling import settle_step
+from tactile_push.control.states import (
+    ANOTHER_COMMAND,
+    CLOCK_JUMPED,
+    CONTACT_SILENT,
+    FINGER_UNKNOWN,
+    HELD,
+    IMPLAUSIBLE_CONTACT,
+    INACTIVE,
+    NO_REASON,
     PUSHING,
     STATES,
+    STOP_REASONS,
+    STOPPED,
+    TICKS_LOST,
     WAITING,
-    PushControl,
-    Tick,
+    WORKSPACE_LIMIT,
 )
-from tactile_push.control.settling import settle_step
 
 __all__ = [
     'AHEAD',
-    'CONTACT_LOST',
+    'ANOTHER_COMMAND',
+    'CLOCK_JUMPED',
+    'CONTACT_SILENT',
+    'FINGER_UNKNOWN',
+    'HELD',
+    'IMPLAUSIBLE_CONTACT',
+    'INACTIVE',
+    'NO_REASON',
     'PUSHING',
     'STATES',
+    'STOPPED',
+    'STOP_REASONS',
+    'TICKS_LOST',
     'WAITING',
+    'WORKSPACE_LIMIT',
+    'Limits',
+    'Newest',
     'PushControl',
     'PushLaw',
     'Tick',
     'finger_velocity',
+    'motion_angle',
+    'plausible',
     'push_angle',
     'settle_step',
 ]

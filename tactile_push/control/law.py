@@ -159,3 +159,21 @@ def finger_velocity(phi: float, belt_speed: float) -> float:
         v_x [m/s]; exactly 0 straight ahead.
     """
     return belt_speed * math.cos(phi) / math.sin(phi) if phi != AHEAD else 0.0
+
+
+def motion_angle(v_x: float, belt_speed: float) -> float:
+    """Give the push angle of a finger velocity, tan(phi) = v_y / v_x (Section V.A).
+
+    Parameters
+    ----------
+    v_x : float
+        Velocity across the belt [m/s].
+    belt_speed : float
+        Speed of the belt, v_y [m/s].
+
+    Returns
+    -------
+    float
+        phi [rad], in (0, pi); exactly `AHEAD` at rest.
+    """
+    return math.atan2(belt_speed, v_x) if v_x != 0.0 else AHEAD

@@ -11,16 +11,29 @@
 # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
 # See the License for the specific language governing permissions and
 # limitations under the License.
-"""When the law may act: a contact is there and fresh, or the finger rests."""
+"""When the law may act on what was felt, and when the finger has to stop."""
 
 import math
 from dataclasses import dataclass
 
-from tactile_push.control.law import PushLaw, finger_velocity
-
-# No contact since activation; the law acts; contact is lost and the finger rests.
-WAITING, PUSHING, CONTACT_LOST = 'waiting for contact', 'pushing', 'contact lost'
-STATES = (WAITING, PUSHING, CONTACT_LOST)
+from tactile_push.control.law import PushLaw, finger_velocity, motion_angle
+from tactile_push.control.limits import Limits, plausible
+from tactile_push.control.newest import Newest
+from tactile_push.control.states import (
+    ANOTHER_COMMAND,
+    CLOCK_JUMPED,
+    CONTACT_SILENT,
+    FINGER_UNKNOWN,
+    HELD,
+    IMPLAUSIBLE_CONTACT,
+    INACTIVE,
+    NO_REASON,
+    PUSHING,
+    STOPPED,
+    TICKS_LOST,
+    WAITING,
+    WORKSPACE_LIMIT,
+)
 
 
 @dataclass(frozen=True)
@@ -31,6 +44,8 @@ class Tick:
     ----------
     state : str
         One of `STATES`.
+    stop_reason : str
+        One of `STOP_REASONS`; `NO_REASON` unless stopped.
     theta : float
         Last sensed angle of the edge [rad]; NaN if there is none.
     phi : float
@@ -43,6 +58,10 @@ class Tick:
         the clock went back [s].
     saturated : bool
         Whether phi is at one of its bounds.
+    limited : bool
+        Whether the law asked for more than the bounds on v_x and its change allow.
+    finger_x : float
+        Last known position of the finger across the belt [m]; NaN if there is none.
     ticks : int
         Ticks of the law since activation, this one included.
     ticks_lost : int
@@ -50,21 +69,26 @@ class Tick:
     """
 
     state: str
+    stop_reason: str
     theta: float
     phi: float
     v_x: float | None
     silence: float
     saturated: bool
+    limited: bool
+    finger_x: float
     ticks: int
     ticks_lost: int
 
 
 class PushControl:
-    """Runs the law on fresh contacts and stops the finger without them.
+    """Runs the law on fresh contacts, within bounds, and stops the finger when it must.
 
     A contact that was used once is not used again: without a new one the push goes on as it was,
-    and after `contact_timeout` the finger stops. When contact returns the law starts over from
-    straight ahead, the push angle of the resting finger: it resumes by itself and without a kick.
+    and after `contact_timeout` the finger stops. Whatever stopped it, the law starts over from
+    straight ahead, the push angle of the resting finger: it resumes without a kick. It does so on
+    its own when the cause is seen to be gone, and after `resume` or `activate` when the cause is
+    one of `HELD`.
 
     Parameters
     ----------
@@ -74,25 +98,27 @@ class PushControl:
         Speed of the belt, v_y [m/s].
     period : float
         Control period [s].
-    contact_timeout : float
-        Age of the last contact beyond which the finger stops [s].
+    limits : Limits, optional
+        When to stop and how fast to go at the most; may be changed at any time.
+
+    Attributes
+    ----------
+    state : str
+        One of `STATES`.
     """
 
     def __init__(
-        self, law: PushLaw, belt_speed: float, period: float, contact_timeout: float
+        self, law: PushLaw, belt_speed: float, period: float, limits: Limits | None = None
     ) -> None:
         self.law = law
         self.belt_speed = belt_speed
         self.period = period
-        self.contact_timeout = contact_timeout
-        self._theta = math.nan
-        self._stamp = -math.inf
-        self._felt: tuple[float, float] | None = None
-        self._last_tick = -math.inf
+        self.limits = limits or Limits()
         self.activate(0.0)
+        self.state = INACTIVE
 
     def activate(self, now: float) -> None:
-        """Start over: no contact yet, no tick yet.
+        """Start over: no contact yet, no tick yet, no reason to stop.
 
         Parameters
         ----------
@@ -100,9 +126,25 @@ class PushControl:
             Time [s], from which the wait for the first contact counts.
         """
         self.state = WAITING
+        self._reason = NO_REASON
+        self._v_x = 0.0
+        self._limited = False
         self._ticks = 0
         self._ticks_lost = 0
+        self._last_tick = self._last_steady = math.nan
         self._forget(now)
+
+    def deactivate(self) -> Tick:
+        """Rest until the next activation.
+
+        Returns
+        -------
+        Tick
+            The last one, with a velocity of 0.
+        """
+        self.state = INACTIVE
+        self._rest(NO_REASON)
+        return self._tick(self._last_tick)
 
     def feel(self, theta: float, stamp: float) -> None:
         """Take a contact as it arrives.
@@ -110,66 +152,179 @@ class PushControl:
         Parameters
         ----------
         theta : float
-            Angle of the pushed edge [rad]. One that is not finite is no contact.
+            Angle of the pushed edge [rad]. One that no pushed edge can have stops the finger.
         stamp : float
             When the sensor was read [s]. A contact not newer than the last one is ignored.
         """
-        newest = self._stamp if self._felt is None else self._felt[1]
-        if math.isfinite(theta) and math.isfinite(stamp) and stamp > newest:
-            self._felt = theta, stamp
+        if plausible(theta):
+            if stamp - self._contact.newest > self.limits.contact_timeout:
+                self._interrupted = True
+            self._contact.take(theta, stamp)
+        else:
+            self._implausible = True
 
-    def tick(self, now: float) -> Tick:
+    def locate_finger(self, x: float, stamp: float) -> None:
+        """Take the finger's position as it arrives.
+
+        Parameters
+        ----------
+        x : float
+            Centre of the disk across the belt, in `finger_base` [m]. NaN is ignored.
+        stamp : float
+            When it was there [s]. A position not newer than the last one is ignored.
+        """
+        if math.isfinite(x):
+            self._finger.take(x, stamp)
+
+    def notice_another_command(self) -> None:
+        """Take note that somebody else commands the finger: it cannot serve two."""
+        self._hold(ANOTHER_COMMAND)
+
+    def notice_clock_jump(self, now: float) -> None:
+        """Take note that the clock was set, so that every stamp is meaningless.
+
+        Parameters
+        ----------
+        now : float
+            Time after the jump [s].
+        """
+        self._forget(now)
+        self._last_tick = self._last_steady = math.nan
+        self._hold(CLOCK_JUMPED)
+
+    def resume(self) -> bool:
+        """Allow the finger to move again after a stop whose cause somebody has looked at.
+
+        Returns
+        -------
+        bool
+            Whether there was such a stop.
+        """
+        if self._reason not in HELD:
+            return False
+        self._rest(CONTACT_SILENT)
+        return True
+
+    def tick(self, now: float, steady: float | None = None) -> Tick:
         """Decide on the finger's velocity for the next control period.
 
         Parameters
         ----------
         now : float
             Time of the tick [s], on the clock of the contacts' stamps.
+        steady : float, optional
+            The same on a clock that cannot be set [s], if time is not simulated.
 
         Returns
         -------
         Tick
             What to command and why.
         """
-        self._count(now)
-        # A contact from the future is as useless as an old one: somebody's clock is wrong.
-        felt, self._felt = self._felt, None
-        if felt is not None and felt[1] - now <= self.contact_timeout:
-            lost_meanwhile = felt[1] - self._stamp > self.contact_timeout
-            self._theta, self._stamp = felt
-            if now - self._stamp <= self.contact_timeout:
-                if lost_meanwhile:
-                    self.law.reset()
+        self._count(now, steady)
+        felt = self._contact.fresh(now, self.limits.contact_timeout)
+        self._finger.fresh(now, self.limits.joint_state_timeout)
+        if self._implausible:
+            self._implausible = False
+            self._implausible_at = now
+        reason = self._reason if self._reason in HELD else self._cause_to_rest(now)
+        if self.state == WAITING:
+            if felt and not reason:
                 self.state = PUSHING
-                self.law.update(self._theta)
-        silence = now - (self._stamp if math.isfinite(self._stamp) else self._since)
-        if self.state == PUSHING and not abs(silence) <= self.contact_timeout:
-            self.state = CONTACT_LOST
-            self.law.reset()
-        v_x = None if self.state == WAITING else finger_velocity(self.law.phi, self.belt_speed)
+        elif reason:
+            self._rest(reason)
+        elif self._reason not in (NO_REASON, WORKSPACE_LIMIT):
+            self._rest(NO_REASON)
+        if self.state == PUSHING or (self.state == STOPPED and not reason):
+            self._push(felt)
+        return self._tick(now)
+
+    def _push(self, felt: bool) -> None:
+        """Let the law act on a new contact, as far as the bounds allow."""
+        limits = self.limits
+        if felt:
+            if self._interrupted:  # the last reading is too long ago to differ from
+                self._interrupted = False
+                self.law.reset()
+            self.law.update(self._contact.value)
+        wanted = finger_velocity(self.law.phi, self.belt_speed)
+        bounded = limits.velocity(wanted, self._v_x, self.period)
+        self._v_x = limits.inward(bounded, self._finger.value)
+        self._limited = bounded != wanted
+        if self._v_x != wanted:
+            # What the finger does is what the law goes on from: phi(k-1) of (18).
+            self.law.phi = motion_angle(self._v_x, self.belt_speed)
+        stays = self._reason == WORKSPACE_LIMIT and not felt
+        at_limit = self._v_x != bounded or stays
+        self.state = STOPPED if at_limit else PUSHING
+        self._reason = WORKSPACE_LIMIT if at_limit else NO_REASON
+
+    def _cause_to_rest(self, now: float) -> str:
+        """Find what forbids to push and will be seen to go away."""
+        limits = self.limits
+        if abs(now - self._implausible_at) <= limits.contact_timeout:
+            return IMPLAUSIBLE_CONTACT
+        if not abs(now - self._contact.stamp) <= limits.contact_timeout:
+            return CONTACT_SILENT
+        if self._finger.known and not abs(now - self._finger.stamp) <= limits.joint_state_timeout:
+            return FINGER_UNKNOWN
+        return NO_REASON
+
+    def _rest(self, reason: str) -> None:
+        """Hold the finger still; the law will start over."""
+        self.law.reset()
+        self._v_x = 0.0
+        self._limited = False
+        self._reason = reason
+        if self.state != INACTIVE:
+            self.state = STOPPED
+
+    def _hold(self, reason: str) -> None:
+        """Stop until somebody says to resume, unless the finger was never moved."""
+        if self.state in (PUSHING, STOPPED) and self._reason not in HELD:
+            self._rest(reason)
+
+    def _count(self, now: float, steady: float | None) -> None:
+        """Count the ticks, and stop if too many are missing or the clock was set."""
+        elapsed = now - self._last_tick
+        if steady is not None:
+            elapsed_steadily = steady - self._last_steady
+            jumped = abs(elapsed - elapsed_steadily) > self.period
+            elapsed = elapsed_steadily
+        else:
+            jumped = elapsed < 0.0
+        if jumped:
+            self.notice_clock_jump(now)
+        if elapsed > 0.0:  # there was a tick before
+            lost = max(0, round(elapsed / self.period) - 1)
+            self._ticks_lost += lost
+            if lost > self.limits.max_ticks_lost:
+                self._hold(TICKS_LOST)
+        self._ticks += 1
+        self._last_tick = now
+        self._last_steady = math.nan if steady is None else steady
+
+    def _forget(self, now: float) -> None:
+        """Forget all that was felt."""
+        self.law.reset()
+        self._since = now
+        self._contact = Newest()
+        self._finger = Newest()
+        self._interrupted = False
+        self._implausible = False
+        self._implausible_at = -math.inf
+
+    def _tick(self, now: float) -> Tick:
+        silent_since = self._contact.stamp if self._contact.known else self._since
         return Tick(
             self.state,
-            self._theta,
+            self._reason,
+            self._contact.value,
             self.law.phi,
-            v_x,
-            silence,
+            None if self.state == WAITING else self._v_x,
+            now - silent_since,
             self.law.saturated,
+            self._limited,
+            self._finger.value,
             self._ticks,
             self._ticks_lost,
         )
-
-    def _count(self, now: float) -> None:
-        if now < self._last_tick:  # the clock went back, so every stamp is meaningless
-            self._forget(now)
-        elif math.isfinite(self._last_tick):
-            self._ticks_lost += max(0, round((now - self._last_tick) / self.period) - 1)
-        self._ticks += 1
-        self._last_tick = now
-
-    def _forget(self, now: float) -> None:
-        self.law.reset()
-        self._since = now
-        self._theta = math.nan
-        self._stamp = -math.inf
-        self._felt = None
-        self._last_tick = -math.inf

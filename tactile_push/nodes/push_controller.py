@@ -14,69 +14,89 @@
 """Runs the control law on contacts and commands the finger."""
 
 import sys
+import time
+from collections import Counter, deque
 
 from geometry_msgs.msg import PoseStamped, TwistStamped
+from rclpy.clock import Clock, JumpThreshold, TimeJump
+from rclpy.clock_type import ClockType
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.time import Time
 from rclpy.timer import Timer
 from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
 
-from tactile_push.control import PUSHING, STATES, PushControl, PushLaw, Tick
+from tactile_push.control import (
+    HELD,
+    STATES,
+    STOP_REASONS,
+    STOPPED,
+    WAITING,
+    Tick,
+    plausible,
+)
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
-from tactile_push.nodes.parameters import Parameter, declare
+from tactile_push.nodes.parameters import ConfigurationError, declare
 from tactile_push.nodes.process import autostart, run
+from tactile_push.nodes.push_controller_parameters import (
+    PARAMETERS,
+    make_control,
+    make_finger,
+    take_values,
+)
 from tactile_push.tactile import yaw_of_quaternion
+
+NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+REMEMBERED = 32  # own commands that may still be on their way back to this node
 
 
 class PushController(LifecycleNode):
-    """Managed node: `contact` in, `finger/cmd_vel` and `push_controller/state` out."""
+    """Managed node: `contact` in, `finger/cmd_vel` and `push_controller/state` out.
+
+    It also hears `joint_states`, to keep the finger in its workspace, and `finger/cmd_vel` itself,
+    to notice that somebody else commands the finger.
+    """
 
     NAME = 'push_controller'
-    PARAMETERS = (
-        Parameter('kp', 0.05, 'rad/rad', 'proportional gain of the law (18)', 0.0, 100.0),
-        Parameter('kd', 5.0, 'rad/rad', 'derivative gain of the law (18)', 0.0, 1000.0),
-        Parameter(
-            'theta_desired', -0.17453292519943295, 'rad', 'desired angle of the edge', -1.5, 1.5
-        ),
-        Parameter(
-            'phi_min', 0.5759586531581288, 'rad', 'smallest push angle', 0.1, 1.57, read_only=True
-        ),
-        Parameter(
-            'phi_max', 2.5656340004316647, 'rad', 'largest push angle', 1.58, 3.04, read_only=True
-        ),
-        Parameter('belt_speed', 0.005, 'm/s', 'speed of the belt', 1e-5, 1.0, read_only=True),
-        Parameter('control_rate', 10.0, 'Hz', 'rate of the law', 0.1, 200.0, read_only=True),
-        Parameter(
-            'contact_timeout', 0.3, 's', 'without contact for so long the finger stops', 0.01, 10.0
-        ),
-        Parameter(
-            'autostart', True, '', 'configure and activate without a manager', read_only=True
-        ),
-    )
+    PARAMETERS = PARAMETERS
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
-        self._settings = p = declare(self, self.PARAMETERS, self._take_parameters)
-        self._law = PushLaw(p.kp, p.kd, p.theta_desired, p.phi_min, p.phi_max)
-        period = 1.0 / p.control_rate
-        self._control = PushControl(self._law, p.belt_speed, period, p.contact_timeout)
+        self._settings = declare(self, self.PARAMETERS, self._take_parameters)
+        try:
+            self._control = make_control(self._settings)
+            self._finger = make_finger(self._settings)
+        except ValueError as error:
+            raise ConfigurationError(f'parameter {error}') from None
         self._timer: Timer | None = None
         self._tick: Tick | None = None
-        self._diagnostics = Diagnostics(self, self._health)
-        if p.autostart:
+        self._sent: deque[tuple[int, int, float]] = deque(maxlen=REMEMBERED)
+        self._counted: Counter[str] = Counter()
+        self._clock_jumped = self.create_guard_condition(self._after_clock_jump)
+        self._jump_handle = self.get_clock().create_jump_callback(
+            JumpThreshold(
+                min_forward=Duration(
+                    seconds=self._control.period * (self._settings.max_ticks_lost + 1)
+                ),
+                min_backward=Duration(nanoseconds=-1),
+            ),
+            post_callback=self._on_clock_jump,
+        )
+        self.create_service(Trigger, 'push_controller/resume', self._on_resume)
+        self._diagnostics = Diagnostics(self, self._health, self._counts)
+        if self._settings.autostart:
             autostart(self)
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Create the topics."""
         self._command = self.create_lifecycle_publisher(TwistStamped, 'finger/cmd_vel', 10)
         self._state = self.create_lifecycle_publisher(JointState, 'push_controller/state', 10)
-        self._contact = self.create_subscription(
-            PoseStamped,
-            'contact',
-            self._on_contact,
-            QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT),
+        self._subscriptions_made = (
+            self.create_subscription(JointState, 'joint_states', self._on_joint_states, NEWEST),
+            self.create_subscription(PoseStamped, 'contact', self._on_contact, NEWEST),
+            self.create_subscription(TwistStamped, 'finger/cmd_vel', self._on_command, 10),
         )
         return TransitionCallbackReturn.SUCCESS
 
@@ -84,7 +104,7 @@ class PushController(LifecycleNode):
         """Start the law."""
         result = super().on_activate(state)
         self._control.activate(self._now())
-        self._timer = self.create_timer(self._control.period, self._on_tick)
+        self._start_timer()
         return result
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -96,7 +116,8 @@ class PushController(LifecycleNode):
         """Remove the topics."""
         self.destroy_lifecycle_publisher(self._command)
         self.destroy_lifecycle_publisher(self._state)
-        self.destroy_subscription(self._contact)
+        for subscription in self._subscriptions_made:
+            self.destroy_subscription(subscription)
         return TransitionCallbackReturn.SUCCESS
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -107,24 +128,73 @@ class PushController(LifecycleNode):
     def destroy_node(self) -> None:
         """Stop the finger and end."""
         self._stop()
+        self._jump_handle.unregister()
         super().destroy_node()
 
     def _take_parameters(self) -> None:
-        p = self._settings
-        self._law.kp, self._law.kd, self._law.theta_desired = p.kp, p.kd, p.theta_desired
-        self._control.contact_timeout = p.contact_timeout
+        take_values(self._control, self._settings)
 
     def _now(self) -> float:
         return self.get_clock().now().nanoseconds * 1e-9
 
+    def _start_timer(self) -> None:
+        """Start to tick, on a clock that nobody can set unless time is simulated."""
+        simulated = self.get_clock().ros_time_is_active
+        clock = self.get_clock() if simulated else Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = self.create_timer(self._control.period, self._on_tick, clock=clock)
+
+    def _on_clock_jump(self, jump: TimeJump) -> None:
+        # While the clock calls, its timers cannot be changed.
+        self._clock_jumped.trigger()
+
+    def _after_clock_jump(self) -> None:
+        """Stop at once: a timer of a clock that went back would not tick for as long."""
+        if self._timer is None:
+            return
+        self.destroy_timer(self._timer)
+        self._control.notice_clock_jump(self._now())
+        self._start_timer()
+        self._on_tick()
+
     def _on_contact(self, message: PoseStamped) -> None:
-        orientation = message.pose.orientation
-        stamp = Time.from_msg(message.header.stamp).nanoseconds * 1e-9
-        self._control.feel(yaw_of_quaternion(orientation.z, orientation.w), stamp)
+        rotation = message.pose.orientation
+        theta = yaw_of_quaternion(rotation.x, rotation.y, rotation.z, rotation.w)
+        if not plausible(theta):
+            self._counted['implausible contacts'] += 1
+        self._control.feel(theta, _seconds(message))
+        self._counted['contacts'] += 1
+
+    def _on_joint_states(self, message: JointState) -> None:
+        angles = dict(zip(message.name, message.position, strict=False))
+        try:
+            joints = [angles[name] for name in self._settings.joint_names]
+            x = self._finger.forward(*joints).x
+        except KeyError:
+            return  # joint_states of another mechanism
+        except ValueError:
+            self._counted['joint states without a number'] += 1
+            return
+        self._control.locate_finger(x, _seconds(message))
+
+    def _on_command(self, message: TwistStamped) -> None:
+        stamp = message.header.stamp
+        try:
+            self._sent.remove((stamp.sec, stamp.nanosec, message.twist.linear.x))
+        except ValueError:
+            self._counted['commands of another node'] += 1
+            self._control.notice_another_command()
+
+    def _on_resume(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        before = 'inactive' if self._tick is None else _words(self._tick)
+        response.success = self._control.resume()
+        response.message = before if not response.success else f'was {before}'
+        return response
 
     def _on_tick(self) -> None:
-        now = self.get_clock().now()
-        self._tick = self._control.tick(now.nanoseconds * 1e-9)
+        clock = self.get_clock()
+        now = clock.now()
+        steady = None if clock.ros_time_is_active else time.monotonic()
+        self._tick = self._control.tick(now.nanoseconds * 1e-9, steady)
         if self._tick.v_x is not None:
             self._publish_command(now, self._tick.v_x)
         self._publish_state(now, self._tick)
@@ -132,22 +202,28 @@ class PushController(LifecycleNode):
 
     def _publish_command(self, now: Time, v_x: float) -> None:
         command = TwistStamped()
-        command.header.stamp = now.to_msg()
+        stamp = now.to_msg()
+        command.header.stamp = stamp
         command.header.frame_id = 'finger_base'
         command.twist.linear.x = v_x
+        self._sent.append((stamp.sec, stamp.nanosec, v_x))
         self._command.publish(command)
 
     def _publish_state(self, now: Time, tick: Tick) -> None:
+        law = self._control.law
         fields = {
             'theta': tick.theta,
-            'theta_desired': self._law.theta_desired,
+            'theta_desired': law.theta_desired,
             'phi': tick.phi,
             'v_x': float('nan') if tick.v_x is None else tick.v_x,
-            'kp': self._law.kp,
-            'kd': self._law.kd,
+            'kp': law.kp,
+            'kd': law.kd,
             'silence': tick.silence,
             'saturated': float(tick.saturated),
+            'limited': float(tick.limited),
+            'finger_x': tick.finger_x,
             'state': float(STATES.index(tick.state)),
+            'stop_reason': float(STOP_REASONS.index(tick.stop_reason)),
             'ticks': float(tick.ticks),
             'ticks_lost': float(tick.ticks_lost),
         }
@@ -156,14 +232,21 @@ class PushController(LifecycleNode):
         self._state.publish(message)
 
     def _stop(self) -> None:
-        """Send a last zero command and wait until the finger has it."""
+        """Send a last zero command, say so, and wait until the finger has it."""
         if self._timer is None:
             return
         self.destroy_timer(self._timer)
         self._timer = None
         self._tick = None
-        self._publish_command(self.get_clock().now(), 0.0)
+        now = self.get_clock().now()
+        self._publish_command(now, 0.0)
+        self._publish_state(now, self._control.deactivate())
         self._command.wait_for_all_acked(Duration(seconds=0.1))
+
+    def _counts(self) -> dict[str, int]:
+        tick = self._tick
+        ticks = {} if tick is None else {'ticks': tick.ticks, 'ticks lost': tick.ticks_lost}
+        return {**ticks, **self._counted}
 
     def _health(self) -> Health:
         if self._timer is None:
@@ -173,20 +256,32 @@ class PushController(LifecycleNode):
             return Health(WARN, 'active, no tick yet')
         values = {
             'theta [rad]': tick.theta,
-            'theta_desired [rad]': self._law.theta_desired,
+            'theta_desired [rad]': self._control.law.theta_desired,
             'phi [rad]': tick.phi,
             'v_x [m/s]': tick.v_x,
             'since last contact [s]': tick.silence,
+            'finger x [m]': tick.finger_x,
             'phi saturated': tick.saturated,
-            'ticks': tick.ticks,
-            'ticks lost': tick.ticks_lost,
+            'velocity limited': tick.limited,
         }
-        if tick.state != PUSHING:
-            overdue = tick.silence > self._control.contact_timeout
-            return Health(ERROR if overdue else WARN, tick.state, values)
-        if tick.saturated or tick.ticks_lost:
-            return Health(WARN, tick.state, values)
-        return Health(OK, tick.state, values)
+        if tick.state == STOPPED:
+            return Health(ERROR, _words(tick), values)
+        rates = self._diagnostics.rates
+        lately = rates['ticks lost'] + rates['commands of another node']
+        if tick.state == WAITING or tick.saturated or tick.limited or lately:
+            return Health(WARN, _words(tick), values)
+        return Health(OK, _words(tick), values)
+
+
+def _words(tick: Tick) -> str:
+    if tick.state != STOPPED:
+        return tick.state
+    hint = ', until resumed' if tick.stop_reason in HELD else ''
+    return f'{tick.state}: {tick.stop_reason}{hint}'
+
+
+def _seconds(message: PoseStamped | JointState) -> float:
+    return Time.from_msg(message.header.stamp).nanoseconds * 1e-9
 
 
 def main() -> int:

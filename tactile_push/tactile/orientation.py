@@ -15,6 +15,8 @@
 
 import math
 
+UPRIGHT = 1e-3  # what rounding and careless publishers may leave of x and y
+
 
 def quaternion_of_yaw(yaw: float) -> tuple[float, float]:
     """Give the two components of a rotation about z that are not zero.
@@ -32,19 +34,21 @@ def quaternion_of_yaw(yaw: float) -> tuple[float, float]:
     return math.sin(yaw / 2.0), math.cos(yaw / 2.0)
 
 
-def yaw_of_quaternion(z: float, w: float) -> float:
+def yaw_of_quaternion(x: float, y: float, z: float, w: float) -> float:
     """Give the angle of a rotation about z.
 
     Parameters
     ----------
-    z, w : float
-        Quaternion components, of any common positive length; x = y = 0.
+    x, y, z, w : float
+        Quaternion components, of any common positive length.
 
     Returns
     -------
     float
-        Angle [rad] in [-pi, pi]; NaN if the components are no rotation: both 0 or not finite.
+        Angle [rad] in [-pi, pi]; NaN if the components are no rotation about z: not finite, all 0,
+        or about an axis that leans by more than `UPRIGHT`.
     """
-    if z == w == 0.0 or not (math.isfinite(z) and math.isfinite(w)):
+    length = math.hypot(z, w)
+    if not (0.0 < length < math.inf and math.hypot(x, y) <= UPRIGHT * length):
         return math.nan
     return math.remainder(2.0 * math.atan2(z, w), 2.0 * math.pi)

@@ -19,7 +19,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tactile_push.control import AHEAD, PushLaw, finger_velocity, push_angle
+from tactile_push.control import AHEAD, PushLaw, finger_velocity, motion_angle, push_angle
 
 checked = settings(derandomize=True, deadline=None, max_examples=60)
 LOWER, UPPER = math.radians(33.0), math.radians(147.0)
@@ -310,3 +310,15 @@ def test_a_push_of_the_papers_rig_is_0_5_to_0_9_mm_long():
 
     assert [round(length, 1) for length in lengths] == [0.9, 0.5, 0.9]
     assert lengths[1] == 0.5
+
+
+@pytest.mark.parametrize('degrees', [33.0, 45.0, 90.0, 91.0, 147.0])
+def test_push_angle_comes_back_from_the_velocity(degrees):
+    phi = math.radians(degrees)
+    assert motion_angle(finger_velocity(phi, 0.005), 0.005) == pytest.approx(phi, rel=1e-15)
+
+
+def test_a_finger_at_rest_is_pushed_straight_ahead():
+    assert motion_angle(0.0, 0.005) == AHEAD
+    assert motion_angle(-0.0, 0.005) == AHEAD
+    assert math.degrees(motion_angle(0.005, 0.005)) == pytest.approx(45.0)

@@ -12,6 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
+import itertools
 import math
 
 import pytest
@@ -20,10 +21,22 @@ from hypothesis import strategies as st
 
 from tactile_push.control import (
     AHEAD,
-    CONTACT_LOST,
+    ANOTHER_COMMAND,
+    CLOCK_JUMPED,
+    CONTACT_SILENT,
+    FINGER_UNKNOWN,
+    HELD,
+    IMPLAUSIBLE_CONTACT,
+    INACTIVE,
+    NO_REASON,
     PUSHING,
     STATES,
+    STOP_REASONS,
+    STOPPED,
+    TICKS_LOST,
     WAITING,
+    WORKSPACE_LIMIT,
+    Limits,
     PushControl,
     PushLaw,
 )
@@ -32,13 +45,25 @@ checked = settings(derandomize=True, deadline=None, max_examples=60)
 PERIOD, TIMEOUT = 0.125, 0.25  # sums of them are exact
 
 
-def control(kp=0.5, kd=2.0, theta_desired=0.0):
-    return PushControl(PushLaw(kp, kd, theta_desired), 0.005, PERIOD, TIMEOUT)
+def control(kp=0.5, kd=2.0, theta_desired=0.0, **limits):
+    bounds = Limits(
+        **{'contact_timeout': TIMEOUT, 'max_speed': 1.0, 'max_acceleration': 1.0, **limits}
+    )
+    running = PushControl(PushLaw(kp, kd, theta_desired), 0.005, PERIOD, bounds)
+    running.activate(0.0)
+    return running
 
 
-def pushing(at=10.0, theta=0.1):
+def ticks_until(running, start, end):
+    """Tick every period from start to end, both included, and give the last tick."""
+    for k in range(round((end - start) / PERIOD) + 1):
+        tick = running.tick(start + k * PERIOD)
+    return tick
+
+
+def pushing(at=10.0, theta=0.1, **limits):
     # Two readings; the second one gives phi = 90 degrees + 0.5 * 0.1.
-    running = control()
+    running = control(**limits)
     running.activate(at - PERIOD)
     running.feel(theta, at - PERIOD)
     running.tick(at - PERIOD)
@@ -52,8 +77,11 @@ def across(phi_less_90):
 
 
 def test_the_states_are_named_for_people():
-    assert STATES == (WAITING, PUSHING, CONTACT_LOST)
-    assert len(set(STATES)) == 3
+    assert STATES == (INACTIVE, WAITING, PUSHING, STOPPED)
+    assert len(set(STATES)) == 4
+    assert STOP_REASONS[0] == NO_REASON == ''
+    assert len(set(STOP_REASONS)) == 8
+    assert set(STOP_REASONS) > HELD == {TICKS_LOST, CLOCK_JUMPED, ANOTHER_COMMAND}
 
 
 def test_before_the_first_contact_it_is_silent():
@@ -139,11 +167,13 @@ def test_a_missed_reading_is_not_a_change_of_the_last_one():
 def test_it_stops_exactly_when_contact_is_older_than_the_timeout():
     running = pushing(10.0)
 
-    at_timeout, beyond, later = (running.tick(10.0 + k * PERIOD) for k in (2, 3, 80))
+    running.tick(10.0 + PERIOD)
+    at_timeout, beyond = (running.tick(10.0 + k * PERIOD) for k in (2, 3))
+    later = ticks_until(running, 10.5, 20.0)
 
     assert (at_timeout.state, at_timeout.v_x) == (PUSHING, across(0.05))
     for tick in (beyond, later):
-        assert tick.state == CONTACT_LOST
+        assert (tick.state, tick.stop_reason) == (STOPPED, CONTACT_SILENT)
         assert tick.v_x == 0.0
         assert tick.phi == AHEAD
         assert not tick.saturated
@@ -152,12 +182,13 @@ def test_it_stops_exactly_when_contact_is_older_than_the_timeout():
 
 def test_it_resumes_by_itself_from_straight_ahead_without_a_kick():
     running = pushing(10.0)
-    running.tick(11.0)
+    assert ticks_until(running, 10.125, 11.0).state == STOPPED
     running.feel(-0.5, 11.125)  # far from the 0.1 before
 
     resumed = running.tick(11.125)
 
     assert (resumed.state, resumed.phi, resumed.v_x) == (PUSHING, AHEAD, 0.0)
+    assert resumed.stop_reason == NO_REASON
     running.feel(-0.5, 11.25)
     assert running.tick(11.25).phi == pytest.approx(AHEAD - 0.25, rel=1e-14)
 
@@ -173,7 +204,7 @@ def test_a_repeated_or_earlier_or_undated_contact_does_not_count(stamp):
     assert tick.v_x == across(0.05)
     assert tick.silence == 0.125
     running.feel(0.6, stamp)
-    assert running.tick(10.375).state == CONTACT_LOST
+    assert running.tick(10.375).state == STOPPED
 
 
 def test_a_contact_that_comes_out_of_order_does_not_replace_a_newer_one():
@@ -184,16 +215,45 @@ def test_a_contact_that_comes_out_of_order_does_not_replace_a_newer_one():
     assert running.tick(10.125).theta == 0.2
 
 
-@pytest.mark.parametrize('theta', [math.nan, math.inf, -math.inf])
-def test_what_is_no_angle_is_no_contact(theta):
-    running = pushing(10.0)
-    for k in range(1, 4):
-        running.feel(theta, 10.0 + k * PERIOD)
-        tick = running.tick(10.0 + k * PERIOD)
-        assert math.isfinite(tick.phi)
-        assert tick.theta == 0.1
+IMPOSSIBLE = [math.nan, math.inf, -math.inf, 1.58, -3.0]  # an edge that faces away
 
-    assert (tick.state, tick.v_x) == (CONTACT_LOST, 0.0)
+
+@pytest.mark.parametrize('theta', IMPOSSIBLE)
+def test_what_no_pushed_edge_can_have_stops_the_finger_at_the_next_tick(theta):
+    running = pushing(10.0)
+    running.feel(theta, 10.0625)
+    running.feel(0.1, 10.125)
+
+    tick = running.tick(10.125)
+
+    assert (tick.state, tick.stop_reason) == (STOPPED, IMPLAUSIBLE_CONTACT)
+    assert (tick.v_x, tick.phi, tick.theta) == (0.0, AHEAD, 0.1)
+
+
+@pytest.mark.parametrize('theta', IMPOSSIBLE)
+def test_it_resumes_by_itself_when_contacts_have_been_plausible_for_the_timeout(theta):
+    running = pushing(10.0)
+    running.feel(theta, 10.125)
+    running.tick(10.125)
+    states = []
+    for k in range(2, 6):
+        running.feel(0.1, 10.0 + k * PERIOD)
+        tick = running.tick(10.0 + k * PERIOD)
+        states.append(tick.state)
+        assert tick.v_x == 0.0 or len(states) == 4
+
+    assert states == [STOPPED, STOPPED, PUSHING, PUSHING]
+    assert tick.v_x == across(0.05)
+
+
+def test_what_no_pushed_edge_can_have_is_nothing_while_inactive():
+    running = control()
+    running.deactivate()
+    running.feel(math.nan, 1.0)
+    running.activate(1.0)
+    running.feel(0.1, 1.0)
+
+    assert running.tick(1.0).state == PUSHING
 
 
 @pytest.mark.parametrize('theta', [math.nan, math.inf])
@@ -221,12 +281,12 @@ def test_an_old_contact_starts_nothing(age):
 
 def test_an_old_contact_does_not_resume():
     running = pushing(10.0)
-    running.tick(11.0)
+    ticks_until(running, 10.125, 11.0)
     running.feel(0.2, 10.5)
 
     tick = running.tick(11.125)
 
-    assert (tick.state, tick.v_x) == (CONTACT_LOST, 0.0)
+    assert (tick.state, tick.v_x) == (STOPPED, 0.0)
 
 
 @pytest.mark.parametrize('ahead', [0.3, 10.0, 1e9, math.inf])
@@ -312,6 +372,7 @@ def test_periods_without_a_tick_are_lost(times, lost):
 def test_activation_starts_over():
     running = pushing(10.0)
     running.tick(10.5)  # three ticks lost, contact lost
+    assert running.tick(10.625).stop_reason == CONTACT_SILENT
 
     running.activate(20.0)
     tick = running.tick(20.125)
@@ -339,27 +400,52 @@ def test_a_clock_that_goes_back_stops_the_finger_and_forgets_every_stamp():
 
     back = running.tick(2.0)
 
-    assert back.v_x == 0.0
+    assert (back.state, back.stop_reason, back.v_x) == (STOPPED, CLOCK_JUMPED, 0.0)
     assert back.phi == AHEAD
     assert math.isnan(back.theta)
     assert back.silence == 0.0
     assert (back.ticks, back.ticks_lost) == (4, 0)
 
-    running.feel(-0.5, 2.0625)  # before the clock's 10.0, but it is the first one now
-    resumed = running.tick(2.125)
+    running.feel(-0.5, 2.125)  # before the clock's 10.0, but it is the first one now
+    held = running.tick(2.125)
+    assert (held.stop_reason, held.v_x, held.theta) == (CLOCK_JUMPED, 0.0, -0.5)
+    assert running.resume()
+    resumed = running.tick(2.25)
     assert (resumed.state, resumed.theta, resumed.phi) == (PUSHING, -0.5, AHEAD)
     assert resumed.ticks_lost == 0
-    running.feel(-0.5, 2.25)
-    assert running.tick(2.25).phi == pytest.approx(AHEAD - 0.25, rel=1e-14)
 
 
-def test_a_clock_that_goes_back_without_contact_loses_it():
+@pytest.mark.parametrize('jump', [-3600.0, -0.25, 0.25, 3600.0])
+def test_a_clock_that_is_set_is_seen_against_one_that_cannot_be(jump):
     running = pushing(10.0)
-    running.tick(2.0)
+    running.tick(10.125, 0.125)
+    running.feel(0.1, 10.25)
+    assert running.tick(10.25, 0.25).state == PUSHING
+    running.feel(0.1, 10.375 + jump)
 
-    tick = running.tick(2.375)
+    tick = running.tick(10.375 + jump, 0.375)
 
-    assert (tick.state, tick.v_x) == (CONTACT_LOST, 0.0)
+    assert (tick.state, tick.stop_reason, tick.v_x) == (STOPPED, CLOCK_JUMPED, 0.0)
+    assert tick.ticks_lost == 0
+
+
+def test_a_clock_that_is_adjusted_by_less_than_a_period_does_no_harm():
+    running = pushing(10.0)
+    running.tick(10.125, 0.125)
+    for k, shift in ((2, 0.03125), (3, -0.03125), (4, 0.0)):
+        running.feel(0.1, 10.0 + k * PERIOD + shift)
+        tick = running.tick(10.0 + k * PERIOD + shift, k * PERIOD)
+        assert (tick.state, tick.ticks_lost) == (PUSHING, 0)
+
+
+def test_a_jump_that_somebody_else_saw_stops_the_finger():
+    running = pushing(10.0)
+    running.notice_clock_jump(500.0)
+
+    tick = running.tick(500.0)
+
+    assert (tick.stop_reason, tick.v_x, tick.silence) == (CLOCK_JUMPED, 0.0, 0.0)
+    assert tick.ticks_lost == 0
 
 
 def test_a_clock_that_goes_back_before_the_first_contact_changes_nothing():
@@ -372,29 +458,257 @@ def test_a_clock_that_goes_back_before_the_first_contact_changes_nothing():
     assert (tick.state, tick.v_x, tick.silence) == (WAITING, None, 0.0)
 
 
+@pytest.mark.parametrize(('lost', 'state'), [(3, PUSHING), (4, STOPPED), (400, STOPPED)])
+@pytest.mark.parametrize('steady', [False, True])
+def test_more_ticks_lost_than_allowed_stop_the_finger_until_it_is_resumed(lost, state, steady):
+    running = pushing(10.0, contact_timeout=1000.0)
+    running.tick(10.125, 0.125 if steady else None)
+    late = 0.125 + (lost + 1) * PERIOD
+    running.feel(0.1, 10.0 + late)
+
+    tick = running.tick(10.0 + late, late if steady else None)
+
+    assert (tick.state, tick.ticks_lost) == (state, lost)
+    if state == STOPPED:
+        assert (tick.stop_reason, tick.v_x) == (TICKS_LOST, 0.0)
+        for k in range(1, 20):
+            running.feel(0.1, 10.0 + late + k * PERIOD)
+            tick = running.tick(10.0 + late + k * PERIOD)
+            assert (tick.stop_reason, tick.v_x) == (TICKS_LOST, 0.0)
+        assert running.resume()
+        tick = running.tick(10.0 + late + 20 * PERIOD)
+        assert (tick.state, tick.v_x, tick.phi) == (PUSHING, 0.0, AHEAD)
+
+
+def test_a_command_of_somebody_else_stops_the_finger_until_it_is_resumed():
+    running = pushing(10.0)
+    running.notice_another_command()
+    for k in range(1, 10):
+        running.feel(0.1, 10.0 + k * PERIOD)
+        tick = running.tick(10.0 + k * PERIOD)
+        assert (tick.state, tick.stop_reason, tick.v_x) == (STOPPED, ANOTHER_COMMAND, 0.0)
+
+    assert running.resume()
+    assert not running.resume()
+    running.feel(0.1, 11.25)
+    assert running.tick(11.25).state == PUSHING
+
+
+def test_before_the_first_contact_others_may_move_the_finger():
+    waiting = control()
+    waiting.activate(0.0)
+    waiting.notice_another_command()
+    waiting.feel(0.1, 0.0)
+
+    assert waiting.tick(0.0).state == PUSHING
+
+
+def test_activation_resumes_too():
+    running = pushing(10.0)
+    running.notice_another_command()
+    running.tick(10.125)
+
+    running.activate(10.125)
+    running.feel(0.1, 10.25)
+
+    assert running.tick(10.25).state == PUSHING
+
+
+def test_there_is_nothing_to_resume_unless_it_is_held():
+    running = pushing(10.0)
+    assert not running.resume()
+    ticks_until(running, 10.125, 11.0)
+    assert not running.resume()
+    assert running.tick(11.125).stop_reason == CONTACT_SILENT
+    assert not control().resume()
+
+
+def test_resumed_without_contact_it_rests_until_there_is_one():
+    running = pushing(10.0)
+    ticks_until(running, 10.125, 11.0)
+    running.notice_another_command()  # while stopped for another reason
+    assert running.tick(11.125).stop_reason == ANOTHER_COMMAND
+    assert running.resume()
+
+    tick = running.tick(11.25)
+
+    assert (tick.state, tick.stop_reason, tick.v_x) == (STOPPED, CONTACT_SILENT, 0.0)
+    running.feel(0.1, 11.375)
+    assert running.tick(11.375).state == PUSHING
+
+
+def test_deactivation_gives_a_last_zero():
+    running = pushing(10.0)
+
+    last = running.deactivate()
+
+    assert (last.state, last.stop_reason, last.v_x, last.phi) == (INACTIVE, NO_REASON, 0.0, AHEAD)
+    assert control().deactivate().v_x == 0.0
+
+
+# The edge at 0.1 asks for a finger to the left: phi > 90 degrees.
+def test_at_the_workspace_limit_it_does_not_move_outward():
+    running = pushing(10.0, workspace_min=-0.1, workspace_max=0.1)
+    running.locate_finger(-0.1, 10.0625)
+    running.feel(0.1, 10.125)
+
+    tick = running.tick(10.125)
+
+    assert (tick.state, tick.stop_reason, tick.v_x) == (STOPPED, WORKSPACE_LIMIT, 0.0)
+    assert (tick.phi, tick.finger_x) == (AHEAD, -0.1)
+    assert running.tick(10.25).stop_reason == WORKSPACE_LIMIT  # no reading, no change
+
+
+def test_from_the_workspace_limit_it_moves_inward_by_itself_and_without_a_kick():
+    running = pushing(10.0, workspace_min=-0.1, workspace_max=0.1)
+    running.locate_finger(-0.11, 10.0625)
+    running.feel(0.1, 10.125)
+    running.tick(10.125)
+    running.locate_finger(-0.11, 10.25)
+    running.feel(0.09, 10.25)
+
+    tick = running.tick(10.25)
+
+    # From straight ahead + 0.5 * 0.09 - 2 * 0.01 is still outward.
+    assert (tick.stop_reason, tick.v_x) == (WORKSPACE_LIMIT, 0.0)
+    running.locate_finger(-0.11, 10.375)
+    running.feel(0.05, 10.375)
+    inward = running.tick(10.375)
+    # 0.5 * 0.05 - 2 * 0.04 = -0.055
+    assert (inward.state, inward.stop_reason) == (PUSHING, NO_REASON)
+    assert inward.v_x == across(-0.055)
+
+
+@pytest.mark.parametrize('x', [0.1, 0.2])
+def test_at_the_other_limit_it_moves_inward(x):
+    running = pushing(10.0, workspace_min=-0.1, workspace_max=0.1)
+    running.locate_finger(x, 10.0625)
+    running.feel(0.1, 10.125)
+
+    assert running.tick(10.125).v_x == across(0.1)
+
+
+def test_without_knowing_where_the_finger_is_it_pushes_until_it_has_known_once():
+    running = pushing(10.0, joint_state_timeout=0.25)
+    assert math.isnan(running.tick(10.125).finger_x)
+    running.locate_finger(0.0, 10.125)
+    running.locate_finger(math.nan, 10.25)
+    for k in range(2, 5):
+        running.feel(0.1, 10.0 + k * PERIOD)
+        tick = running.tick(10.0 + k * PERIOD)
+        reason = FINGER_UNKNOWN if k * PERIOD > 0.375 else NO_REASON
+        assert tick.stop_reason == reason
+    assert (tick.state, tick.v_x) == (STOPPED, 0.0)
+
+    running.locate_finger(0.0, 10.625)
+    running.feel(0.1, 10.625)
+    tick = running.tick(10.625)
+    assert (tick.state, tick.v_x, tick.phi) == (PUSHING, 0.0, AHEAD)
+
+
+@pytest.mark.parametrize('stamp', [10.0, 9.0, 11.0, math.nan])
+def test_a_position_that_is_old_or_from_the_future_does_not_count(stamp):
+    running = pushing(10.0)
+    running.locate_finger(0.05, 10.0)
+    running.tick(10.125)
+    running.locate_finger(-1.0, stamp)
+
+    assert running.tick(10.25).finger_x == 0.05
+
+
+def test_the_velocity_is_bounded_and_the_law_goes_on_from_what_the_finger_does():
+    running = pushing(10.0, max_speed=0.001)
+    running.feel(0.5, 10.125)
+
+    tick = running.tick(10.125)
+
+    assert tick.limited
+    assert tick.v_x == -0.001
+    assert tick.phi == pytest.approx(math.pi - math.atan2(0.005, 0.001), rel=1e-14)
+    running.feel(0.5, 10.25)
+    assert running.tick(10.25).v_x == -0.001
+    running.feel(0.0, 10.375)
+    # - 2 * 0.5 takes it far to the other side at once: nothing has wound up.
+    assert running.tick(10.375).v_x == 0.001
+
+
+def test_the_change_of_the_velocity_is_bounded_but_for_a_stop():
+    running = pushing(10.0, max_acceleration=0.008)  # 1 mm/s a period of 0.125 s
+    v_x = [running.tick(10.0).v_x]
+    for k in range(1, 8):
+        running.feel(0.1 + 0.2 * k, 10.0 + k * PERIOD)
+        v_x.append(running.tick(10.0 + k * PERIOD).v_x)
+    steps = [a - b for a, b in itertools.pairwise(v_x)]
+    assert max(steps) == pytest.approx(0.001, rel=1e-12)
+    assert v_x[-1] < -0.005
+
+    stopped = ticks_until(running, 10.0 + 8 * PERIOD, 10.0 + 11 * PERIOD)
+    assert stopped.v_x == 0.0
+
+
+def test_the_bounds_leave_the_law_alone_where_they_are_not_met():
+    bounded = pushing(10.0, max_speed=0.008, max_acceleration=0.2)
+    free = pushing(10.0, max_speed=1e9, max_acceleration=1e9)
+    for k in range(1, 30):
+        theta = 0.1 * math.cos(0.3 * k)
+        for running in (bounded, free):
+            running.feel(theta, 10.0 + k * PERIOD)
+        ticks = [running.tick(10.0 + k * PERIOD) for running in (bounded, free)]
+        assert ticks[0] == ticks[1]
+        assert not ticks[0].limited
+
+
+def test_contacts_that_pause_for_longer_than_the_timeout_make_no_kick():
+    running = pushing(10.0)
+    running.feel(0.6, 10.28125)  # no tick saw the pause
+
+    tick = running.tick(10.28125)
+
+    assert (tick.state, tick.phi, tick.v_x) == (PUSHING, AHEAD, 0.0)
+
+
 anything = st.floats(-2.0, 2.0) | st.sampled_from([math.nan, math.inf, -math.inf])
+positions = st.floats(-0.2, 0.2) | st.just(math.nan)
 
 
 @checked
 @given(
     st.lists(
-        st.tuples(st.floats(-0.5, 1.0), anything, st.floats(-1.0, 1.0) | st.just(math.nan)),
+        st.tuples(
+            st.floats(-0.5, 1.0),
+            anything,
+            st.floats(-1.0, 1.0) | st.just(math.nan),
+            positions,
+            st.sampled_from(['', '', '', 'other', 'resume', 'activate', 'jump']),
+        ),
         max_size=40,
     )
 )
-def test_whatever_comes_the_command_is_bounded_and_rests_without_contact(events):
-    running = control()
-    running.activate(0.0)
-    now = 0.0
-    for advance, theta, stamp in events:
+def test_whatever_comes_the_command_is_bounded_and_rests_unless_it_pushes(events):
+    running = control(max_speed=0.006, max_acceleration=0.016)
+    now = before = 0.0
+    for advance, theta, stamp, x, act in events:
         now += advance
         running.feel(theta, now + stamp)
+        running.locate_finger(x, now + stamp)
+        if act == 'other':
+            running.notice_another_command()
+        elif act == 'resume':
+            running.resume()
+        elif act == 'activate':
+            running.activate(now)
+        elif act == 'jump':
+            running.notice_clock_jump(now)
         tick = running.tick(now)
-        if tick.state == WAITING:
-            assert tick.v_x is None
-        else:
-            assert abs(tick.v_x) <= 0.005 / math.tan(math.radians(33.0)) * (1.0 + 1e-14)
+        v_x = tick.v_x or 0.0
+        assert abs(v_x) <= 0.006
+        assert v_x == 0.0 or abs(v_x - before) <= 0.016 * PERIOD * (1.0 + 1e-12)
+        assert (tick.v_x is None) == (tick.state == WAITING)
+        assert (tick.stop_reason != NO_REASON) == (tick.state == STOPPED)
         if tick.state != PUSHING:
             assert tick.phi == AHEAD
-            assert tick.v_x in (None, 0.0)
+            assert v_x == 0.0
+        elif v_x > 0.0:
+            assert not tick.finger_x >= 0.105
         assert math.radians(33.0) <= tick.phi <= math.radians(147.0)
+        before = v_x

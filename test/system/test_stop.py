@@ -20,7 +20,10 @@ from conftest import Observer, Rig, field, seconds
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from lifecycle_msgs.msg import Transition
 
+from tactile_push.control import PUSHING, STATES, STOPPED
+
 CONTROL_PERIOD, CONTACT_TIMEOUT, COMMAND_TIMEOUT = 0.1, 0.3, 0.5
+PUSHED, STOPPED_ = float(STATES.index(PUSHING)), float(STATES.index(STOPPED))
 
 
 def levels(arrays: list[DiagnosticArray], node: str) -> list[bytes]:
@@ -33,7 +36,7 @@ def test_killed_driver_stops_the_finger_and_a_new_one_lets_it_go_on_without_a_ki
     diagnostics = observer.collect(DiagnosticArray, '/diagnostics')
     rig.start()
     rig.wait_until_moving()
-    assert field(rig.states[-1], 'state') == 1.0
+    assert field(rig.states[-1], 'state') == PUSHED
     rig.nodes.running['sensor_driver'].kill()
     rig.nodes.running['sensor_driver'].wait()
     observer.wait_for(lambda: rig.commands[-1].twist.linear.x == 0.0, 'a zero command')
@@ -55,7 +58,7 @@ def test_killed_driver_stops_the_finger_and_a_new_one_lets_it_go_on_without_a_ki
     rig.start_driver()
     observer.wait_for(lambda: len(rig.contacts) > contacts + 20, 'contacts')
     rig.wait_until_moving()
-    resumed = next(m for m in rig.states if seconds(m) > stopped and field(m, 'state') == 1.0)
+    resumed = next(m for m in rig.states if seconds(m) > stopped and field(m, 'state') == PUSHED)
     assert field(resumed, 'phi') == pytest.approx(math.pi / 2.0)
     assert field(resumed, 'v_x') == 0.0
     # The law may change phi by kp |theta - theta_d| and kd |theta(k) - theta(k-1)| a period.

@@ -31,7 +31,7 @@ HALF = math.sqrt(0.5)
 )
 def test_known_rotations(degrees, z, w):
     assert quaternion_of_yaw(math.radians(degrees)) == pytest.approx((z, w), abs=1e-15)
-    assert math.degrees(yaw_of_quaternion(z, w)) == pytest.approx(degrees)
+    assert math.degrees(yaw_of_quaternion(0.0, 0.0, z, w)) == pytest.approx(degrees)
 
 
 @given(yaw=st.floats(-100.0, 100.0), length=st.floats(1e-3, 1e3))
@@ -39,7 +39,7 @@ def test_known_rotations(degrees, z, w):
 def test_yaw_comes_back_whatever_the_length_of_the_quaternion(yaw, length):
     z, w = quaternion_of_yaw(yaw)
     assert math.hypot(z, w) == pytest.approx(1.0, abs=1e-12)
-    back = yaw_of_quaternion(length * z, length * w)
+    back = yaw_of_quaternion(0.0, 0.0, length * z, length * w)
     assert -math.pi <= back <= math.pi
     assert (math.cos(back), math.sin(back)) == pytest.approx(
         (math.cos(yaw), math.sin(yaw)), abs=1e-12
@@ -50,8 +50,8 @@ def test_yaw_comes_back_whatever_the_length_of_the_quaternion(yaw, length):
 @PROPERTY
 def test_both_quaternions_of_a_rotation_give_the_same_yaw(yaw):
     z, w = quaternion_of_yaw(yaw)
-    assert yaw_of_quaternion(z, w) == pytest.approx(yaw, abs=1e-12)
-    assert yaw_of_quaternion(-z, -w) == pytest.approx(yaw, abs=1e-12)
+    assert yaw_of_quaternion(0.0, 0.0, z, w) == pytest.approx(yaw, abs=1e-12)
+    assert yaw_of_quaternion(0.0, 0.0, -z, -w) == pytest.approx(yaw, abs=1e-12)
 
 
 @given(yaw=st.floats(-10.0, 10.0), x=st.floats(-1.0, 1.0), y=st.floats(-1.0, 1.0))
@@ -73,4 +73,17 @@ def test_quaternion_turns_a_vector_counterclockwise_by_the_yaw(yaw, x, y):
     [(0.0, 0.0), (math.nan, 1.0), (0.0, math.nan), (math.inf, 1.0), (0.0, -math.inf)],
 )
 def test_components_that_are_no_rotation_give_no_yaw(z, w):
-    assert math.isnan(yaw_of_quaternion(z, w))
+    assert math.isnan(yaw_of_quaternion(0.0, 0.0, z, w))
+
+
+@pytest.mark.parametrize(
+    ('x', 'y'), [(HALF, 0.0), (0.0, 0.01), (-0.01, 0.0), (math.nan, 0.0), (0.0, math.inf)]
+)
+def test_rotation_about_a_leaning_axis_has_no_yaw(x, y):
+    assert math.isnan(yaw_of_quaternion(x, y, HALF, HALF))
+
+
+@pytest.mark.parametrize(('x', 'y'), [(1e-9, 0.0), (0.0, -1e-6), (0.0, 0.0)])
+def test_what_rounding_leaves_of_x_and_y_does_no_harm(x, y):
+    assert yaw_of_quaternion(x, y, HALF, HALF) == pytest.approx(math.pi / 2.0)
+    assert yaw_of_quaternion(1e3 * x, 1e3 * y, 1e3, 1e3) == pytest.approx(math.pi / 2.0)

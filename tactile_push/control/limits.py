@@ -1,0 +1,120 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Bounds on what the finger is told, and on what the controller believes."""
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass
+class Limits:
+    """When to stop and how fast to go at the most; docs/safety.md has the reasons.
+
+    Parameters
+    ----------
+    contact_timeout : float
+        Age of the last contact beyond which the finger stops [s].
+    joint_state_timeout : float
+        Age of the finger's last known position beyond which it stops [s], if it was ever known.
+    max_ticks_lost : int
+        Control periods in a row without a tick beyond which the finger stops.
+    max_speed : float
+        Bound on |v_x| [m/s].
+    max_acceleration : float
+        Bound on the change of v_x [m/s^2]. A stop is not bounded.
+    workspace_min, workspace_max : float
+        Where the centre of the finger's disk may be across the belt, x in `finger_base` [m].
+
+    Raises
+    ------
+    ValueError
+        If a bound is not positive or the workspace is empty.
+    """
+
+    contact_timeout: float = 0.3
+    joint_state_timeout: float = 0.3
+    max_ticks_lost: int = 3
+    max_speed: float = 0.02
+    max_acceleration: float = 0.05
+    workspace_min: float = -0.105
+    workspace_max: float = 0.105
+
+    def __post_init__(self) -> None:
+        for name in ('contact_timeout', 'joint_state_timeout', 'max_speed', 'max_acceleration'):
+            if not getattr(self, name) > 0.0:
+                raise ValueError(f'{name}: expected a positive number, got {getattr(self, name)}')
+        if not self.max_ticks_lost >= 0:
+            raise ValueError(f'max_ticks_lost: expected 0 or more, got {self.max_ticks_lost}')
+        if not self.workspace_min < self.workspace_max:
+            raise ValueError(
+                'workspace_min: expected less than workspace_max, '
+                f'got {self.workspace_min} and {self.workspace_max}'
+            )
+
+    def velocity(self, wanted: float, before: float, period: float) -> float:
+        """Bound the finger's velocity and its change.
+
+        Parameters
+        ----------
+        wanted : float
+            What the law asks for [m/s].
+        before : float
+            Last command [m/s].
+        period : float
+            Control period [s].
+
+        Returns
+        -------
+        float
+            v_x [m/s]; `wanted` itself, to the bit, where no bound is met.
+        """
+        change = self.max_acceleration * period
+        bounded = min(max(wanted, -self.max_speed), self.max_speed)
+        return min(max(bounded, before - change), before + change)
+
+    def inward(self, wanted: float, x: float) -> float:
+        """Take away what would move the finger further out of its workspace.
+
+        Parameters
+        ----------
+        wanted : float
+            Velocity across the belt [m/s].
+        x : float
+            Where the finger is [m]; NaN where that is not known.
+
+        Returns
+        -------
+        float
+            `wanted`, or 0 at a limit that it points to [m/s].
+        """
+        outward = (x >= self.workspace_max and wanted > 0.0) or (
+            x <= self.workspace_min and wanted < 0.0
+        )
+        return 0.0 if outward else wanted
+
+
+def plausible(theta: float) -> bool:
+    """Tell whether an angle can be that of an edge that the finger pushes.
+
+    Parameters
+    ----------
+    theta : float
+        Angle of the pushed edge [rad].
+
+    Returns
+    -------
+    bool
+        Whether it is finite and the edge faces the belt, |theta| <= pi/2.
+    """
+    return abs(theta) <= math.pi / 2.0  # which NaN is not

@@ -1,0 +1,80 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""The newest of the values that arrive, whatever order they arrive in."""
+
+import math
+
+
+class Newest:
+    """Keeps the newest value, by its stamp, and gives every value once.
+
+    A value from the future is as useless as an old one: somebody's clock is wrong. It is not
+    believed, and it does not keep later ones from counting.
+
+    Attributes
+    ----------
+    value : float
+        Newest value that was believed; NaN before the first one.
+    stamp : float
+        Its stamp [s]; minus infinity before the first one.
+    """
+
+    def __init__(self) -> None:
+        self.value = math.nan
+        self.stamp = -math.inf
+        self._arrived: tuple[float, float] | None = None
+
+    @property
+    def known(self) -> bool:
+        """Whether there is a value."""
+        return math.isfinite(self.stamp)
+
+    @property
+    def newest(self) -> float:
+        """Newest stamp that arrived, believed or not yet looked at [s]."""
+        return self.stamp if self._arrived is None else self._arrived[1]
+
+    def take(self, value: float, stamp: float) -> None:
+        """Take a value as it arrives.
+
+        Parameters
+        ----------
+        value : float
+            The value.
+        stamp : float
+            When it was measured [s]. One that is not newer than the newest is ignored.
+        """
+        if math.isfinite(stamp) and stamp > self.newest:
+            self._arrived = value, stamp
+
+    def fresh(self, now: float, timeout: float) -> bool:
+        """Tell whether a value has arrived since the last call that is not older than a timeout.
+
+        Parameters
+        ----------
+        now : float
+            Present time [s].
+        timeout : float
+            Largest age, and largest lead [s].
+
+        Returns
+        -------
+        bool
+            Whether `value` is new.
+        """
+        arrived, self._arrived = self._arrived, None
+        if arrived is None or arrived[1] - now > timeout:
+            return False
+        self.value, self.stamp = arrived
+        return now - self.stamp <= timeout

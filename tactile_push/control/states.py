@@ -1,0 +1,40 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""What the controller can be doing, and why it stops."""
+
+# Not asked to act; no contact yet; the law acts; the finger is held at rest.
+INACTIVE, WAITING, PUSHING, STOPPED = 'inactive', 'waiting for contact', 'pushing', 'stopped'
+STATES = (INACTIVE, WAITING, PUSHING, STOPPED)
+
+NO_REASON = ''
+# The cause lies in the world and is seen to go away: the controller resumes on its own.
+CONTACT_SILENT = 'contact silent'
+IMPLAUSIBLE_CONTACT = 'implausible contact'
+WORKSPACE_LIMIT = 'workspace limit'
+FINGER_UNKNOWN = 'finger position unknown'
+# The cause lies in the machine and may come again: somebody has to look before it resumes.
+TICKS_LOST = 'ticks lost'
+CLOCK_JUMPED = 'clock jumped'
+ANOTHER_COMMAND = 'another command'
+STOP_REASONS = (
+    NO_REASON,
+    CONTACT_SILENT,
+    IMPLAUSIBLE_CONTACT,
+    WORKSPACE_LIMIT,
+    FINGER_UNKNOWN,
+    TICKS_LOST,
+    CLOCK_JUMPED,
+    ANOTHER_COMMAND,
+)
+HELD = frozenset({TICKS_LOST, CLOCK_JUMPED, ANOTHER_COMMAND})  # until somebody says to resume
