@@ -17,7 +17,12 @@ import os
 
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchContext, LaunchDescription
-from launch.actions import DeclareLaunchArgument, OpaqueFunction, Shutdown
+from launch.actions import (
+    DeclareLaunchArgument,
+    OpaqueFunction,
+    SetEnvironmentVariable,
+    Shutdown,
+)
 from launch.conditions import IfCondition
 from launch.events.process import ProcessExited
 from launch.substitutions import LaunchConfiguration
@@ -73,7 +78,10 @@ def generate_launch_description() -> LaunchDescription:
         _node('contact_geometry', config, simulated),
         _node('push_controller', config, {'kp': _number('kp'), 'kd': _number('kd')}, simulated),
     ]
-    return LaunchDescription([*arguments, OpaqueFunction(function=_check_numbers), *nodes])
+    # A demonstration is nobody's business on other machines.
+    on_this_machine = SetEnvironmentVariable('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    check = OpaqueFunction(function=_check_numbers)
+    return LaunchDescription([*arguments, check, on_this_machine, *nodes])
 
 
 def _check_numbers(context: LaunchContext) -> None:

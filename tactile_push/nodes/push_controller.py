@@ -21,7 +21,7 @@ from geometry_msgs.msg import PoseStamped, TwistStamped
 from rclpy.clock import Clock, JumpThreshold, TimeJump
 from rclpy.clock_type import ClockType
 from rclpy.duration import Duration
-from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.time import Time
 from rclpy.timer import Timer
@@ -38,8 +38,9 @@ from tactile_push.control import (
     plausible,
 )
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
+from tactile_push.nodes.managed import ManagedNode
 from tactile_push.nodes.parameters import ConfigurationError, declare
-from tactile_push.nodes.process import autostart, run
+from tactile_push.nodes.process import run
 from tactile_push.nodes.push_controller_parameters import (
     PARAMETERS,
     make_control,
@@ -48,11 +49,12 @@ from tactile_push.nodes.push_controller_parameters import (
 )
 from tactile_push.tactile import yaw_of_quaternion
 
-NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+# Deep enough that no bad message hides behind a good one.
+SENSOR_DATA = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
 REMEMBERED = 32  # own commands that may still be on their way back to this node
 
 
-class PushController(LifecycleNode):
+class PushController(ManagedNode):
     """Managed node: `contact` in, `finger/cmd_vel` and `push_controller/state` out.
 
     It also hears `joint_states`, to keep the finger in its workspace, and `finger/cmd_vel` itself,
@@ -87,15 +89,17 @@ class PushController(LifecycleNode):
         self.create_service(Trigger, 'push_controller/resume', self._on_resume)
         self._diagnostics = Diagnostics(self, self._health, self._counts)
         if self._settings.autostart:
-            autostart(self)
+            self.autostart()
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Create the topics."""
         self._command = self.create_lifecycle_publisher(TwistStamped, 'finger/cmd_vel', 10)
         self._state = self.create_lifecycle_publisher(JointState, 'push_controller/state', 10)
         self._subscriptions_made = (
-            self.create_subscription(JointState, 'joint_states', self._on_joint_states, NEWEST),
-            self.create_subscription(PoseStamped, 'contact', self._on_contact, NEWEST),
+            self.create_subscription(
+                JointState, 'joint_states', self._on_joint_states, SENSOR_DATA
+            ),
+            self.create_subscription(PoseStamped, 'contact', self._on_contact, SENSOR_DATA),
             self.create_subscription(TwistStamped, 'finger/cmd_vel', self._on_command, 10),
         )
         return TransitionCallbackReturn.SUCCESS
@@ -144,17 +148,15 @@ class PushController(LifecycleNode):
         self._timer = self.create_timer(self._control.period, self._on_tick, clock=clock)
 
     def _on_clock_jump(self, jump: TimeJump) -> None:
-        # While the clock calls, its timers cannot be changed.
-        self._clock_jumped.trigger()
+        self._control.notice_clock_jump(self._now())
+        self._clock_jumped.trigger()  # while the clock calls, its timers cannot be changed
 
     def _after_clock_jump(self) -> None:
         """Stop at once: a timer of a clock that went back would not tick for as long."""
-        if self._timer is None:
-            return
-        self.destroy_timer(self._timer)
-        self._control.notice_clock_jump(self._now())
-        self._start_timer()
-        self._on_tick()
+        if self._timer is not None:
+            self.destroy_timer(self._timer)
+            self._start_timer()
+            self._on_tick()
 
     def _on_contact(self, message: PoseStamped) -> None:
         rotation = message.pose.orientation
