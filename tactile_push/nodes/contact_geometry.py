@@ -29,7 +29,6 @@ from tactile_push.tactile import (
     PoleHistory,
     Reading,
     ReadingRejectedError,
-    StaleJointsError,
     contact_of_reading,
     pole_angle,
     quaternion_of_yaw,
@@ -123,7 +122,7 @@ class ContactGeometry(Node):
                 self._settings.finger_radius,
                 self._settings.max_out_of_plane,
             )
-        except (ReadingRejectedError, StaleJointsError) as reason:
+        except ReadingRejectedError as reason:
             self._rejected[str(reason)] += 1
             return
         pose = PoseStamped()

@@ -13,6 +13,7 @@
 # limitations under the License.
 """The tactile sensor: from its bytes to a contact in the plane of motion (Section V.A)."""
 
+from tactile_push.tactile.contact_finder import ContactFinder
 from tactile_push.tactile.finger import FingerPose, OutOfReachError, PlanarFinger, pole_angle
 from tactile_push.tactile.hemisphere import (
     Contact,
@@ -21,16 +22,22 @@ from tactile_push.tactile.hemisphere import (
     normalized_angle,
     reading_of_contact,
 )
+from tactile_push.tactile.jumps import JUMP_TOLERANCE, MAX_THETA_RATE, JumpGuard
 from tactile_push.tactile.orientation import quaternion_of_yaw, yaw_of_quaternion
-from tactile_push.tactile.pole_history import PoleHistory, StaleJointsError
+from tactile_push.tactile.pole_history import BELIEVED, PoleHistory
 from tactile_push.tactile.reading import NO_CONTACT, Reading
 from tactile_push.tactile.sentence import Sentence, SentenceError, checksum, decode, encode
 from tactile_push.tactile.stream import SentenceStream
 
 __all__ = [
+    'BELIEVED',
+    'JUMP_TOLERANCE',
+    'MAX_THETA_RATE',
     'NO_CONTACT',
     'Contact',
+    'ContactFinder',
     'FingerPose',
+    'JumpGuard',
     'OutOfReachError',
     'PlanarFinger',
     'PoleHistory',
@@ -39,7 +46,6 @@ __all__ = [
     'Sentence',
     'SentenceError',
     'SentenceStream',
-    'StaleJointsError',
     'checksum',
     'contact_of_reading',
     'decode',

@@ -41,7 +41,11 @@ class Contact:
 
 
 def contact_of_reading(
-    reading: Reading, psi: float, radius: float, max_out_of_plane: float
+    reading: Reading,
+    psi: float,
+    radius: float,
+    max_out_of_plane: float,
+    detectable_range: float = math.pi / 2.0,
 ) -> Contact:
     """Find the contact that a reading tells of.
 
@@ -56,6 +60,9 @@ def contact_of_reading(
     max_out_of_plane : float
         Bound on |cos(elevation) sin(azimuth)|, the part of the contact's direction that sticks
         out of the plane of motion: 0 for an upright face.
+    detectable_range : float, optional
+        Largest angle between the pole and a contact that the sensor detects properly [rad]; the
+        whole hemisphere by default.
 
     Returns
     -------
@@ -66,7 +73,8 @@ def contact_of_reading(
     ------
     ReadingRejectedError
         If there is no contact, psi is not finite, an angle lies off the hemisphere, or the contact
-        lies further out of the plane of motion than allowed. The message is the reason.
+        lies further from the pole or further out of the plane of motion than allowed. The message
+        is the reason.
     """
     azimuth, elevation = reading.azimuth, reading.elevation
     if not math.isfinite(psi):
@@ -75,6 +83,8 @@ def contact_of_reading(
         raise ReadingRejectedError('no contact')
     if not (-math.pi <= azimuth <= math.pi and 0.0 <= elevation <= math.pi / 2.0):
         raise ReadingRejectedError('off the hemisphere')
+    if not math.pi / 2.0 - elevation <= detectable_range:
+        raise ReadingRejectedError('beyond the detectable range')
     if not abs(math.cos(elevation) * math.sin(azimuth)) <= max_out_of_plane:
         raise ReadingRejectedError('out of plane')
     left = math.cos(elevation) * math.cos(azimuth)

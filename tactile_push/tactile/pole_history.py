@@ -13,44 +13,89 @@
 # limitations under the License.
 """The finger tip's direction at the moment of a reading."""
 
-from collections import deque
+import math
+from bisect import bisect_left, bisect_right
 
+from tactile_push.tactile.hemisphere import ReadingRejectedError, normalized_angle
 
-class StaleJointsError(ValueError):
-    """No joint state near enough in time; the message is the reason in two or three words."""
+BELIEVED = 3  # so many in a row that agree are no accident
 
 
 class PoleHistory:
     """Remembers the pole's angle for a while and gives it at a reading's time.
 
+    Angles are interpolated the shorter way around, so that a joint which reports its angle in
+    (-pi, pi] may pass the end of that range.
+
+    The stamps of joint states are expected to increase. One that is not newer than the newest is
+    ignored: it came late or twice. `BELIEVED` of them in a row, each newer than the one before,
+    mean that the clock was set back, or that the newest had been stamped in the future: what is
+    remembered then starts over with these.
+
     Parameters
     ----------
     timeout : float
-        How far beyond the remembered times an angle is still used [s].
+        How far in time the nearest remembered angle may be [s]. May be changed.
     length : int, optional
         How many angles are remembered.
+
+    Attributes
+    ----------
+    age : float
+        How far in time the nearest angle was when one was last asked for [s]; NaN before that.
     """
 
-    def __init__(self, timeout: float, length: int = 64) -> None:
+    def __init__(self, timeout: float, length: int = 256) -> None:
         self.timeout = timeout
-        self._angles: deque[tuple[float, float]] = deque(maxlen=length)
+        self.age = math.nan
+        self._length = length
+        self._stamps: list[float] = []
+        self._angles: list[float] = []
+        self._late: list[tuple[float, float]] = []
 
-    def record(self, stamp: float, psi: float) -> None:
+    def record(self, stamp: float, psi: float) -> bool:
         """Remember an angle.
 
         Parameters
         ----------
         stamp : float
-            When the joints were read [s]. A step back starts over: the clock was set.
+            When the joints were read [s].
         psi : float
             Angle of the pole [rad].
+
+        Returns
+        -------
+        bool
+            Whether it was taken: False if it is not finite or not newer than the newest.
         """
-        if self._angles and stamp < self._angles[-1][0]:
-            self._angles.clear()
-        self._angles.append((stamp, psi))
+        if not (math.isfinite(stamp) and math.isfinite(psi)):
+            return False
+        psi = normalized_angle(psi)
+        stamps, angles, late = self._stamps, self._angles, self._late
+        if not stamps or stamp > stamps[-1]:
+            stamps.append(stamp)
+            angles.append(psi)
+            late.clear()
+            if len(stamps) > self._length:
+                del stamps[0], angles[0]
+            return True
+        if late and stamp <= late[-1][0]:
+            late.clear()
+        late.append((stamp, psi))
+        if len(late) < BELIEVED:
+            return False
+        stamps[:], angles[:] = map(list, zip(*late, strict=True))
+        late.clear()
+        return True
 
     def at(self, stamp: float) -> float:
         """Give the pole's angle at a time.
+
+        Between two remembered times it is interpolated. After the newest it goes on as it turned
+        on average since the oldest one that is at most `timeout` older than the newest: over two
+        neighbours alone the noise of the joint angles would be magnified. It goes on for no longer
+        than it was watched turning, so the noise is at most doubled. Before the oldest it is the
+        oldest.
 
         Parameters
         ----------
@@ -60,29 +105,35 @@ class PoleHistory:
         Returns
         -------
         float
-            psi [rad], interpolated between the neighbours in time; the nearest before the first
-            and after the last.
+            psi [rad].
 
         Raises
         ------
-        StaleJointsError
-            If the time is further than `timeout` outside what is remembered.
+        ReadingRejectedError
+            If nothing is remembered, or nothing within `timeout` of the time.
         """
-        if not self._angles:
-            raise StaleJointsError('no joint state')
-        later = None
-        for earlier in reversed(self._angles):
-            if earlier[0] <= stamp:
-                break
-            later = earlier
-        else:
-            return self._nearest(self._angles[0], stamp)
-        if later is None:
-            return self._nearest(earlier, stamp)
-        (t0, psi0), (t1, psi1) = earlier, later
-        return psi0 + (psi1 - psi0) * (stamp - t0) / (t1 - t0)
+        stamps, angles = self._stamps, self._angles
+        if not stamps:
+            raise ReadingRejectedError('no joint state')
+        newest = stamps[-1]
+        if not stamp < newest:
+            ahead = stamp - newest
+            self._check_age(ahead)
+            oldest = bisect_left(stamps, newest - self.timeout)
+            if ahead == 0.0 or oldest == len(stamps) - 1:
+                return angles[-1]
+            turned = math.remainder(angles[-1] - angles[oldest], 2.0 * math.pi)
+            return angles[-1] + turned * min(ahead / (newest - stamps[oldest]), 1.0)
+        later = bisect_right(stamps, stamp)
+        if later == 0:
+            self._check_age(stamps[0] - stamp)
+            return angles[0]
+        t0, t1 = stamps[later - 1], stamps[later]
+        self._check_age(min(stamp - t0, t1 - stamp))
+        turned = math.remainder(angles[later] - angles[later - 1], 2.0 * math.pi)
+        return angles[later - 1] + turned * (stamp - t0) / (t1 - t0)
 
-    def _nearest(self, remembered: tuple[float, float], stamp: float) -> float:
-        if not abs(stamp - remembered[0]) <= self.timeout:
-            raise StaleJointsError('stale joint state')
-        return remembered[1]
+    def _check_age(self, age: float) -> None:
+        self.age = age
+        if not age <= self.timeout:
+            raise ReadingRejectedError('stale joint state')

@@ -177,9 +177,27 @@ def test_no_contact_is_rejected_with_its_own_reason():
         contact_of_reading(NO_CONTACT, AHEAD, RADIUS, 1.0)
 
 
+@pytest.mark.parametrize('azimuth', [0.0, math.pi])
+def test_contact_further_from_the_pole_than_the_detectable_range_is_rejected(azimuth):
+    # 40 degrees above the equator is 50 degrees from the pole.
+    reading = Reading(azimuth, math.radians(40.0))
+    contact = contact_of_reading(reading, AHEAD, RADIUS, UPRIGHT, math.radians(50.1))
+    assert abs(math.degrees(contact.theta)) == pytest.approx(50.0)
+    with pytest.raises(ReadingRejectedError, match='^beyond the detectable range$'):
+        contact_of_reading(reading, AHEAD, RADIUS, UPRIGHT, math.radians(49.9))
+
+
+def test_range_is_no_matter_off_the_hemisphere_or_without_contact():
+    for reading, reason in ((Reading(0.0, -0.1), 'off the hemisphere'), (NO_CONTACT, 'no contact')):
+        with pytest.raises(ReadingRejectedError, match=f'^{reason}$'):
+            contact_of_reading(reading, AHEAD, RADIUS, UPRIGHT, 0.1)
+
+
 def test_bound_that_is_no_number_lets_nothing_pass():
     with pytest.raises(ReadingRejectedError):
         contact_of_reading(Reading(0.0, 1.0), AHEAD, RADIUS, math.nan)
+    with pytest.raises(ReadingRejectedError):
+        contact_of_reading(Reading(0.0, 1.0), AHEAD, RADIUS, 1.0, math.nan)
 
 
 @pytest.mark.parametrize('psi', [math.nan, math.inf, -math.inf])

@@ -1,0 +1,156 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""From readings and joint angles as they come to contacts, with what is amiss refused."""
+
+import math
+from collections.abc import Iterable
+
+from tactile_push.tactile.finger import pole_angle
+from tactile_push.tactile.hemisphere import Contact, ReadingRejectedError, contact_of_reading
+from tactile_push.tactile.jumps import JUMP_TOLERANCE, MAX_THETA_RATE, JumpGuard
+from tactile_push.tactile.pole_history import BELIEVED, PoleHistory
+from tactile_push.tactile.reading import Reading
+
+
+class ContactFinder:
+    """Finds the contact that each reading tells of, and refuses readings that tell of none.
+
+    It has no clock: what it gives follows from the stamps and numbers it was given, in the order
+    in which they came.
+
+    The stamps of readings are expected to increase. One that is not newer than the one before
+    came late or twice and is refused, so the contacts' stamps increase strictly. `BELIEVED`
+    readings in a row that are not newer, yet each newer than the one before it, mean that the
+    clock was set back: the last of them is taken like a very first reading. A reading that
+    comes again and again is never believed. One that is refused for its joint state is no measure
+    for the next, so a single stamp far in the future does not stop the readings after it where the
+    finger turns.
+
+    Parameters
+    ----------
+    radius : float
+        Effective radius of the finger's disk [m].
+    max_out_of_plane : float, optional
+        Bound on |cos(elevation) sin(azimuth)|, the part of the contact's direction that sticks
+        out of the plane of motion.
+    detectable_range : float, optional
+        Largest angle between the pole and a contact that the sensor detects properly [rad].
+    max_theta_rate : float, optional
+        How fast theta can turn [rad/s]; `jumps` derives it.
+    jump_tolerance : float, optional
+        How far two readings of the same theta may differ [rad].
+    joint_state_timeout : float or None, optional
+        How far in time a reading may be from the nearest joint angles [s]. None if the finger tip
+        does not turn: its direction is the mount angle.
+    mount_angle : float, optional
+        Angle of the finger tip's pole in `finger_base` at joint angles zero [rad].
+
+    Attributes
+    ----------
+    radius, max_out_of_plane, detectable_range, mount_angle : float
+        As given; may be changed between readings.
+    jumps : JumpGuard
+        Refuses jumps; its bounds may be changed.
+    pole : PoleHistory or None
+        The finger tip's direction in the past; None if it does not turn.
+    """
+
+    def __init__(
+        self,
+        radius: float,
+        max_out_of_plane: float = 0.2,
+        detectable_range: float = math.pi / 2.0,
+        max_theta_rate: float = MAX_THETA_RATE,
+        jump_tolerance: float = JUMP_TOLERANCE,
+        joint_state_timeout: float | None = None,
+        mount_angle: float = math.pi / 2.0,
+    ) -> None:
+        self.radius = radius
+        self.max_out_of_plane = max_out_of_plane
+        self.detectable_range = detectable_range
+        self.mount_angle = mount_angle
+        self.jumps = JumpGuard(max_theta_rate, jump_tolerance)
+        self.pole = None if joint_state_timeout is None else PoleHistory(joint_state_timeout)
+        self._newest = -math.inf
+        self._newest_late = -math.inf
+        self._late = 0
+
+    def joints(self, stamp: float, angles: Iterable[float]) -> bool:
+        """Take the angles of the moving joints.
+
+        Parameters
+        ----------
+        stamp : float
+            When they were read [s].
+        angles : iterable of float
+            Joint angles [rad], counterclockwise.
+
+        Returns
+        -------
+        bool
+            Whether they are of use: False if one is not finite, if they are not newer than those
+            before, or if the finger tip does not turn.
+        """
+        return self.pole is not None and self.pole.record(stamp, pole_angle(0.0, angles))
+
+    def contact(self, reading: Reading, stamp: float) -> Contact:
+        """Find the contact that a reading tells of.
+
+        Parameters
+        ----------
+        reading : Reading
+            The sensor's azimuth and elevation [rad].
+        stamp : float
+            When the sensor was read [s].
+
+        Returns
+        -------
+        Contact
+            theta and the contact point.
+
+        Raises
+        ------
+        ReadingRejectedError
+            If there is none to trust. The message is the reason: 'not newer', 'no joint state',
+            'stale joint state', 'no contact', 'off the hemisphere', 'beyond the detectable range',
+            'out of plane' or 'isolated jump'.
+        """
+        self._check_order(stamp)
+        psi = self.mount_angle
+        if self.pole is not None:
+            psi += self.pole.at(stamp)
+        self._newest = stamp
+        try:
+            contact = contact_of_reading(
+                reading, psi, self.radius, self.max_out_of_plane, self.detectable_range
+            )
+        except ReadingRejectedError:
+            self.jumps.interrupt()
+            raise
+        self.jumps.check(stamp, contact.theta)
+        return contact
+
+    def _check_order(self, stamp: float) -> None:
+        if self._newest < stamp < math.inf:
+            self._late = 0
+            return
+        if not math.isfinite(stamp):
+            raise ReadingRejectedError('not newer')
+        self._late = self._late + 1 if self._late and stamp > self._newest_late else 1
+        self._newest_late = stamp
+        if self._late < BELIEVED:
+            raise ReadingRejectedError('not newer')
+        self._late = 0
+        self._newest = -math.inf
+        self.jumps.restart()
