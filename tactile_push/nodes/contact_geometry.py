@@ -14,27 +14,30 @@
 """Turns the sensor's angles and the finger's joint angles into the contact."""
 
 import sys
+import time
 from collections import Counter
 
 from geometry_msgs.msg import PoseStamped
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
-from rclpy.time import Time
 from sensor_msgs.msg import JointState
 
-from tactile_push.nodes.diagnostics import OK, WARN, Diagnostics, Health
-from tactile_push.nodes.parameters import Parameter, declare
+from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
+from tactile_push.nodes.parameters import ConfigurationError, Parameter, declare
 from tactile_push.nodes.process import run
 from tactile_push.tactile import (
-    PoleHistory,
+    JUMP_TOLERANCE,
+    MAX_THETA_RATE,
+    ContactFinder,
     Reading,
     ReadingRejectedError,
-    contact_of_reading,
-    pole_angle,
     quaternion_of_yaw,
 )
 
 SENSOR_DATA = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
+PATIENCE = 0.5  # without a reading, or without one that is of use, before it is an error [s]
+NO_CONTACT = 'no contact'
+REFUSED_JOINTS = 'joint states refused'
 
 
 class ContactGeometry(Node):
@@ -72,7 +75,6 @@ class ContactGeometry(Node):
             'largest time between a reading and the joint state used for it',
             0.001,
             10.0,
-            read_only=True,
         ),
         Parameter(
             'max_out_of_plane',
@@ -83,77 +85,143 @@ class ContactGeometry(Node):
             0.001,
             1.0,
         ),
+        Parameter(
+            'detectable_range',
+            1.5707963267948966,
+            'rad',
+            'largest angle between the pole and a contact that the sensor detects properly; pi/2 '
+            'is the whole hemisphere',
+            0.01,
+            1.6,
+        ),
+        Parameter(
+            'max_theta_rate',
+            MAX_THETA_RATE,
+            'rad/s',
+            'how fast theta can turn; it grows with the speed of the belt',
+            0.01,
+            1000.0,
+        ),
+        Parameter(
+            'jump_tolerance',
+            JUMP_TOLERANCE,
+            'rad',
+            'how far two readings of the same theta may differ; pi refuses no jump',
+            0.001,
+            3.2,
+        ),
     )
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
-        self._settings = declare(self, self.PARAMETERS)
-        self._pole = PoleHistory(self._settings.joint_state_timeout)
-        self._published = 0
-        self._rejected: Counter[str] = Counter()
+        self._settings = p = declare(self, self.PARAMETERS, self._take_parameters)
+        if p.use_joint_states and not p.joint_names:
+            raise ConfigurationError('parameter joint_names: expected the name of a joint, got []')
+        self._finder = ContactFinder(
+            p.finger_radius,
+            joint_state_timeout=p.joint_state_timeout if p.use_joint_states else None,
+        )
+        self._take_parameters()
+        # Seconds since the node's start have room for the nanoseconds behind the point.
+        self._epoch = self.get_clock().now().nanoseconds // 10**9
+        self._counted = Counter(readings=0, contacts=0)
+        self._stamp = float('nan')  # of the last reading, since the epoch [s]
+        self._heard = self._useful = time.monotonic()  # when the last reading, the last useful came
+        self._feels = ''  # what the last useful reading said
+        self._refusal = ''  # why the last refused one was refused
+        self._pose = PoseStamped()
+        self._pose.header.frame_id = 'finger_disk'
         self._publisher = self.create_publisher(PoseStamped, 'contact', 10)
-        if self._settings.use_joint_states:
+        if p.use_joint_states:
             # Before the readings: the executor serves what has arrived in this order.
             self.create_subscription(JointState, 'joint_states', self._on_joint_states, SENSOR_DATA)
         self.create_subscription(JointState, 'tactile', self._on_tactile, SENSOR_DATA)
-        self._diagnostics = Diagnostics(self, self._health, self._counts)
+        self._diagnostics = Diagnostics(self, self._health, lambda: self._counted)
+
+    def _take_parameters(self) -> None:
+        p, finder = self._settings, self._finder
+        finder.radius = p.finger_radius
+        finder.max_out_of_plane = p.max_out_of_plane
+        finder.detectable_range = p.detectable_range
+        finder.mount_angle = p.mount_angle
+        finder.jumps.max_rate = p.max_theta_rate
+        finder.jumps.tolerance = p.jump_tolerance
+        if finder.pole is not None:
+            finder.pole.timeout = p.joint_state_timeout
 
     def _on_joint_states(self, message: JointState) -> None:
-        angles = dict(zip(message.name, message.position, strict=False))
+        names, position = message.name, message.position
         try:
-            joints = [angles[name] for name in self._settings.joint_names]
-        except KeyError:
-            return  # joint_states of another mechanism
-        self._pole.record(_seconds(message), pole_angle(self._settings.mount_angle, joints))
+            angles = [position[names.index(name)] for name in self._settings.joint_names]
+        except (ValueError, IndexError):
+            self._counted['joint states of other joints'] += 1
+            return
+        if self._finder.joints(self._seconds(message), angles):
+            self._counted['joint states'] += 1
+        else:
+            self._counted[REFUSED_JOINTS] += 1
 
     def _on_tactile(self, message: JointState) -> None:
-        position = dict(zip(message.name, message.position, strict=False))
-        force = dict(zip(message.name, message.effort, strict=False))
-        nan = float('nan')
-        reading = Reading(
-            position.get('azimuth', nan),
-            position.get('elevation', nan),
-            force.get('normal_force', nan),
-        )
+        self._counted['readings'] += 1
+        now = time.monotonic()
+        if now - self._heard > PATIENCE:
+            self._useful = now  # after a silence patience starts over
+        self._heard = now
+        self._stamp = self._seconds(message)
         try:
-            contact = contact_of_reading(
-                reading,
-                self._psi(_seconds(message)),
-                self._settings.finger_radius,
-                self._settings.max_out_of_plane,
-            )
+            contact = self._finder.contact(_reading(message), self._stamp)
         except ReadingRejectedError as reason:
-            self._rejected[str(reason)] += 1
+            self._refuse(str(reason))
             return
-        pose = PoseStamped()
+        self._useful = now
+        self._feels = 'contact'
+        self._counted['contacts'] += 1
+        pose = self._pose  # one for all: publishing copies it
         pose.header.stamp = message.header.stamp
-        pose.header.frame_id = 'finger_disk'
         pose.pose.position.x, pose.pose.position.y = contact.x, contact.y
         orientation = pose.pose.orientation
         orientation.z, orientation.w = quaternion_of_yaw(contact.theta)
         self._publisher.publish(pose)
-        self._published += 1
 
-    def _psi(self, stamp: float) -> float:
-        if self._settings.use_joint_states:
-            return self._pole.at(stamp)
-        return self._settings.mount_angle
+    def _refuse(self, reason: str) -> None:
+        self._counted[f'rejected: {reason}'] += 1
+        if reason == NO_CONTACT:  # a finger in the air is no fault
+            self._useful = self._heard
+            self._feels = reason
+        else:
+            self._refusal = reason
 
-    def _counts(self) -> dict[str, int]:
-        rejected = {f'rejected: {reason}': count for reason, count in self._rejected.items()}
-        return {'contacts': self._published, **rejected}
+    def _seconds(self, message: JointState) -> float:
+        stamp = message.header.stamp
+        return stamp.sec - self._epoch + stamp.nanosec * 1e-9
 
     def _health(self) -> Health:
+        now = self.get_clock().now().nanoseconds * 1e-9 - self._epoch
+        values = {'age of the last reading [s]': f'{now - self._stamp:.3f}'}
+        if self._finder.pole is not None:
+            values['age of the joint state used [s]'] = f'{self._finder.pole.age:.4f}'
+        if time.monotonic() - self._heard > PATIENCE:
+            return Health(ERROR, 'no readings', values)
+        if self._heard - self._useful > PATIENCE:
+            return Health(ERROR, f'readings refused: {self._refusal}', values)
+        if not self._feels:
+            return Health(WARN, 'no contact yet', values)
         rates = self._diagnostics.rates
-        if any(rates[f'rejected: {reason}'] for reason in self._rejected):
-            return Health(WARN, 'readings without a contact')
-        if not rates['contacts']:
-            return Health(WARN, 'no readings')
-        return Health(OK, 'contact')
+        refused = rates['readings'] - rates['contacts'] - rates[f'rejected: {NO_CONTACT}']
+        if refused > 0.0 or rates[REFUSED_JOINTS]:
+            return Health(WARN, f'{self._feels}, some refused', values)
+        return Health(OK, self._feels, values)
 
 
-def _seconds(message: JointState) -> float:
-    return Time.from_msg(message.header.stamp).nanoseconds * 1e-9
+def _reading(message: JointState) -> Reading:
+    names, position = message.name, message.position
+    try:
+        reading = Reading(position[names.index('azimuth')], position[names.index('elevation')])
+    except (ValueError, IndexError):
+        raise ReadingRejectedError('no azimuth and elevation') from None
+    if message.header.stamp.sec < 0:
+        raise ReadingRejectedError('negative stamp')  # the contact would have it, too
+    return reading
 
 
 def main() -> int:
