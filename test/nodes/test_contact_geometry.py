@@ -210,6 +210,18 @@ def test_finger_in_the_air_is_well(bench):
     assert bench.health == (OK, 'no contact')
 
 
+def test_reading_that_comes_twice_is_no_warning_until_nothing_else_comes(bench):
+    bench.turn()
+    bench.read()
+    bench.read()
+    bench.node._diagnostics.report()
+    assert bench.health == (OK, 'contact')
+    for _ in range(6):
+        bench.now += 0.1
+        bench.read(sec=1000)
+    assert bench.health == (ERROR, 'readings refused: not newer')
+
+
 def read_on(bench, joints=True, **fields):
     """Read a tenth of a second later, joint angles and sensor."""
     bench.now += 0.1
