@@ -25,22 +25,25 @@ from tactile_push.tactile.sentence import (
 
 
 class SentenceStream:
-    """Cuts a stream of bytes into sentences and counts what is wrong with them.
+    """Cuts a stream of bytes into segments, decodes them and counts what is wrong with them.
 
-    A sentence may come in pieces or many at a time. Only what follows the last `$` of a line can
-    become a sentence, and only if it is no longer than one can be; the rest is thrown away at
-    once, so memory is bounded.
+    A segment ends with a line end, and before the `$` that begins the next one. How the bytes are
+    split into pieces makes no difference to readings or counts. Every segment that is not blank is
+    counted once, in `received` or in `dropped`. What cannot become a sentence any more is thrown
+    away at once, so fewer than 82 bytes are kept.
 
     Attributes
     ----------
     received : int
         Valid sentences so far.
     dropped : collections.Counter
-        Lines dropped so far, by reason.
+        Segments dropped so far, by reason.
     lost : int
         Readings missing from the sequence so far.
     repeated : int
         Sentences so far whose number was that of the sentence before; they are not passed on.
+    late : int
+        Sentences so far that are of unknown age; they are not passed on.
     restarts : int
         Times so far that the sequence went back: the sensor started anew.
     """
@@ -50,52 +53,69 @@ class SentenceStream:
         self.dropped: Counter[str] = Counter()
         self.lost = 0
         self.repeated = 0
+        self.late = 0
         self.restarts = 0
-        self._pending = b''
-        self._thrown_away = 0
-        self._sequence: int | None = None
+        self.restart()
 
     def restart(self) -> None:
         """Forget a half line and the last sequence number: the device was opened anew."""
         self._pending = b''
-        self._thrown_away = 0
-        self._sequence = None
+        self._pending_is_late = False
+        self._in_overlong_segment = False
+        self._sequence: int | None = None
 
-    def feed(self, data: bytes) -> list[Reading]:
+    def feed(self, data: bytes, fresh: bool = True) -> list[Reading]:
         r"""Take bytes as they come and give the readings that they complete.
 
         Parameters
         ----------
         data : bytes
             Any number of bytes.
+        fresh : bool, optional
+            Whether they came just now. A sentence with a byte that did not is counted as late.
 
         Returns
         -------
         list of Reading
             Oldest first.
         """
-        *lines, pending = (self._pending + data).split(b'\n')
-        readings = [reading for line in lines if (reading := self._take(line)) is not None]
-        start = pending.rfind(b'$')
-        self._pending = pending[start:] if start >= 0 else b''
-        if len(self._pending) > LONGEST_SENTENCE:
-            self._pending = b''
-        before = self._thrown_away
-        self._thrown_away += len(pending) - len(self._pending)
-        if before <= LONGEST_SENTENCE < self._thrown_away:
-            self.dropped['no line end'] += 1
+        # A segment that begins before this place of the first line has late bytes.
+        late_before = len(self._pending) if self._pending_is_late else 0
+        *lines, rest = (self._pending + data).split(b'\n')
+        readings = []
+        for line in lines:
+            segment = self._last_segment(line)
+            late = not fresh or len(line) - len(segment) < late_before
+            if segment and (reading := self._take(segment, late)) is not None:
+                readings.append(reading)
+            self._in_overlong_segment = False
+            late_before = 0
+        self._pending = self._last_segment(rest)
+        self._pending_is_late = not fresh or len(rest) - len(self._pending) < late_before
         return readings
 
-    def _take(self, line: bytes) -> Reading | None:
+    def _last_segment(self, line: bytes) -> bytes:
+        """Give the segment that a line ends with, if it can be a sentence, and count the others."""
         start = line.rfind(b'$')
-        if start < 0:
-            if 0 < len(line.rstrip(b'\r')) + self._thrown_away <= LONGEST_SENTENCE:
-                self.dropped['no sentence'] += 1
-            self._thrown_away = 0
-            return None
-        self._thrown_away = 0
+        if start >= 0:
+            begun = not self._in_overlong_segment and line[: line.find(b'$')].strip(b'\r') != b''
+            if cut := line.count(b'$', 0, start) + begun:
+                self.dropped['no line end'] += cut
+            self._in_overlong_segment = False
+            segment = line[start:]
+        elif self._in_overlong_segment:
+            return b''
+        else:
+            segment = line.lstrip(b'\r')
+        if len(segment) >= LONGEST_SENTENCE:
+            self.dropped['no line end'] += 1
+            self._in_overlong_segment = True
+            return b''
+        return segment
+
+    def _take(self, segment: bytes, late: bool) -> Reading | None:
         try:
-            sentence = decode(line[start:])
+            sentence = decode(segment)
         except SentenceError as error:
             self.dropped[str(error)] += 1
             return None
@@ -110,4 +130,7 @@ class SentenceStream:
             else:
                 self.lost += step - 1
         self._sequence = sentence.sequence
+        if late:
+            self.late += 1
+            return None
         return sentence.reading

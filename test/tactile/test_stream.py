@@ -15,13 +15,22 @@
 
 import math
 import random
-from itertools import pairwise
+from collections import Counter
+from itertools import accumulate, pairwise
 
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from tactile_push.tactile import NO_CONTACT, Reading, Sentence, SentenceStream, encode
+from tactile_push.tactile import (
+    NO_CONTACT,
+    Reading,
+    Sentence,
+    SentenceError,
+    SentenceStream,
+    decode,
+    encode,
+)
 
 PROPERTY = settings(derandomize=True, deadline=None, max_examples=60)
 LONGEST = 82
@@ -69,35 +78,145 @@ def test_nothing_comes_of_nothing():
 
 
 noise = st.binary(max_size=150).map(lambda data: data.replace(b'$', b'#'))
+sentences = st.builds(line, st.integers(0, 65535), st.one_of(st.none(), st.integers(0, 90)))
+
+
+@st.composite
+def damaged(draw):
+    """Draw a sentence with a part cut out, doubled or replaced."""
+    whole = draw(sentences)
+    start, end = sorted(draw(st.tuples(*[st.integers(0, len(whole))] * 2)))
+    part = draw(st.one_of(st.just(b''), st.just(whole[start:end] * 2), st.binary(max_size=4)))
+    return whole[:start] + part + whole[end:]
+
+
+marks = st.lists(
+    st.sampled_from([b'$', b'*', b',', b'\r', b'\n', b'A' * 70, b'\r' * 90]), max_size=6
+)
 texts = st.lists(
-    st.one_of(
-        st.builds(line, st.integers(0, 65535), st.one_of(st.none(), st.integers(0, 90))),
-        noise,
-    ),
-    max_size=8,
+    st.one_of(sentences, damaged(), st.binary(max_size=150), noise, marks.map(b''.join)),
+    max_size=12,
 ).map(b''.join)
+everything = settings(derandomize=True, deadline=None, max_examples=300)
 
 
-@given(text=texts, cuts=st.lists(st.integers(0, 1000), max_size=12))
+def cut(text, cuts):
+    """Cut a text at places that may lie behind its end."""
+    bounds = [0, *sorted(min(place, len(text)) for place in cuts), len(text)]
+    return [text[a:b] for a, b in pairwise(bounds)]
+
+
+def sentences_and_drops(text):
+    """Return what the format says of a text, found byte by byte: valid sentences and drops."""
+    valid, drops, segment = [], Counter(), b''
+
+    def finish(segment, ended):
+        segment = segment.lstrip(b'\r')
+        if len(segment) >= LONGEST or (segment and not ended):
+            drops['no line end'] += 1
+        elif segment:
+            try:
+                valid.append(decode(segment))
+            except SentenceError as error:
+                drops[str(error)] += 1
+
+    for value in text:
+        byte = bytes([value])
+        if byte in b'$\n':
+            finish(segment, byte == b'\n')
+            segment = b''
+        segment += byte.strip(b'\n')
+    if len(segment.lstrip(b'\r')) >= LONGEST:  # what is shorter may go on
+        finish(segment, True)
+    return valid, drops
+
+
+def counts(stream):
+    """Return all counts of a stream."""
+    return (
+        stream.received,
+        stream.lost,
+        stream.repeated,
+        stream.late,
+        stream.restarts,
+        stream.dropped,
+    )
+
+
+@given(text=texts, cuts=st.lists(st.integers(0, 1500), max_size=12))
 @example(text=b'x' * 100 + line(0, 10), cuts=[95])
+@example(text=b'$' + b'x' * 80 + b'\r\n' + line(0, 10), cuts=[81, 82])
+@example(text=b'$' * 200, cuts=[100])
+@example(text=b'\r' * 200 + line(0, 10), cuts=[100])
+@everything
+def test_any_bytes_in_any_pieces_give_what_the_format_says(text, cuts):
+    valid, drops = sentences_and_drops(text)
+    numbers = [sentence.sequence for sentence in valid]
+    news = [
+        sentence.reading
+        for sentence, before in zip(valid, [None, *numbers], strict=False)
+        if sentence.sequence != before
+    ]
+    steps = [(b - a) % 65536 for a, b in pairwise(numbers)]
+    expected = (
+        len(valid),
+        sum(step - 1 for step in steps if 1 <= step <= 32768),
+        steps.count(0),
+        0,
+        sum(step > 32768 for step in steps),
+        drops,
+    )
+    for pieces in ([text], cut(text, cuts), [bytes([byte]) for byte in text]):
+        stream = SentenceStream()
+        readings = []
+        for piece in pieces:
+            readings += stream.feed(piece)
+            assert len(stream._pending) < LONGEST
+        assert degrees_of(readings) == degrees_of(news)
+        assert counts(stream) == expected
+
+
+@given(
+    degrees=st.lists(st.integers(0, 90), min_size=1, max_size=10),
+    garbage=noise,
+    cuts=st.lists(st.integers(0, 600), max_size=10),
+    freshness=st.lists(st.booleans(), min_size=11, max_size=11),
+)
+@example(degrees=[10], garbage=b'', cuts=[5], freshness=[False, *[True] * 10])
+@example(degrees=[10], garbage=b'', cuts=[5, 9], freshness=[True, False, *[True] * 9])
+@example(degrees=[10, 20], garbage=b'', cuts=[30], freshness=[False, *[True] * 10])
 @PROPERTY
-def test_pieces_of_any_size_give_the_same_readings(text, cuts):
-    whole = SentenceStream()
-    expected = whole.feed(text)
-    bounds = [0, *sorted(min(cut, len(text)) for cut in cuts), len(text)]
-    pieces = [text[a:b] for a, b in pairwise(bounds)]
+def test_sentence_with_a_late_byte_is_late_and_no_other(degrees, garbage, cuts, freshness):
+    lines = [line(number, angle) for number, angle in enumerate(degrees)]
+    text = garbage + b'\n' + b''.join(lines)
+    pieces = cut(text, cuts)
+    fresh = [flag for piece, flag in zip(pieces, freshness, strict=False) for _ in piece]
+    ends = list(accumulate([len(garbage) + 1, *map(len, lines)]))
+    on_time = [all(fresh[a:b]) for a, b in pairwise(ends)]
     stream = SentenceStream()
-    assert degrees_of(feed_all(stream, pieces)) == degrees_of(expected)
-    assert stream.received == whole.received
-    bytewise = SentenceStream()
-    readings = feed_all(bytewise, [bytes([byte]) for byte in text])
-    assert degrees_of(readings) == degrees_of(expected)
-    for other in (stream, bytewise):
-        assert (other.lost, other.repeated, other.restarts) == (
-            whole.lost,
-            whole.repeated,
-            whole.restarts,
-        )
+    readings = [
+        reading
+        for piece, flag in zip(pieces, freshness, strict=False)
+        for reading in stream.feed(piece, flag)
+    ]
+    assert degrees_of(readings) == [d for d, flag in zip(degrees, on_time, strict=True) if flag]
+    assert stream.late == on_time.count(False)
+    assert (stream.received, stream.lost, stream.repeated) == (len(degrees), 0, 0)
+
+
+def test_sentence_after_a_late_half_of_another_is_on_time():
+    stream = SentenceStream()
+    assert stream.feed(line(0, 10)[:9], fresh=False) == []
+    assert degrees_of(stream.feed(line(1, 20))) == [20]
+    assert (stream.late, stream.dropped) == (0, {'no line end': 1})
+
+
+def test_late_sentence_sent_again_is_repeated_and_never_new():
+    stream = SentenceStream()
+    assert stream.feed(line(4, 10), fresh=False) == []
+    assert stream.feed(line(4, 10)) == []
+    assert degrees_of(stream.feed(line(6, 20))) == [20]
+    assert (stream.received, stream.late, stream.repeated, stream.lost) == (3, 1, 1, 1)
 
 
 @given(
@@ -148,9 +267,9 @@ def test_memory_is_bounded_when_no_line_end_comes():
     for _ in range(256):
         block = bytes(noise.choice(b'abc$*,0123456789\r\xff') for _ in range(1024)) * 4
         assert stream.feed(block) == []
-        assert len(stream._pending) <= LONGEST
+        assert len(stream._pending) < LONGEST
     assert stream.received == 0
-    assert stream.dropped.total() == 1
+    assert set(stream.dropped) == {'no line end'}
     assert degrees_of(stream.feed(b'\n' + line(0, 10))) == [10]
 
 
@@ -158,7 +277,7 @@ def test_memory_is_bounded_when_bytes_trickle_in():
     stream = SentenceStream()
     for _ in range(1000):
         stream.feed(b'x')
-        assert len(stream._pending) <= LONGEST
+        assert len(stream._pending) < LONGEST
     assert stream.dropped == {'no line end': 1}
 
 
