@@ -14,13 +14,19 @@
 """Devices of every kind: a pseudo terminal, a TCP connection, and one without a file."""
 
 import contextlib
+import io
 import os
 import random
 import socket
+import struct
+import termios
+import threading
 import time
 import tty
 
 import pytest
+import serial
+from serial.rfc2217 import PortManager
 
 from tactile_push.tactile.device import Device, check_url, socket_address
 
@@ -236,3 +242,189 @@ def test_closed_device_can_be_opened_again(line):
         os.write(near, data)
         assert receive(device, 3) == data
         device.close()
+
+
+def read_fresh(device, send):
+    """Send and read until what was read is fresh; return it."""
+    deadline = time.monotonic() + PATIENCE
+    while time.monotonic() < deadline:
+        send()
+        if (data := device.read()) and device.fresh():
+            return data
+    raise AssertionError('nothing fresh came')
+
+
+def test_what_comes_while_somebody_reads_is_fresh(line, devices):
+    near, path = line
+    device = devices(path)
+    assert read_fresh(device, lambda: os.write(near, b'x')) == b'x'
+
+
+def test_what_lay_in_the_buffer_while_nobody_read_is_late(line, devices):
+    near, path = line
+    device = devices(path)
+    read_fresh(device, lambda: os.write(near, b'x'))
+    os.write(near, b'old' * 500)
+    time.sleep(1.5 * Device.LONGEST_AGE)
+    count = 0
+    while count < 1500:
+        count += len(device.read())
+        assert not device.fresh()
+    # The first bytes after that may have been held back further out.
+    os.write(near, b'held back')
+    assert device.read() and not device.fresh()
+    assert read_fresh(device, lambda: os.write(near, b'new')) == b'new'
+
+
+def test_what_was_read_before_a_standstill_is_late_after_it(line, devices):
+    near, path = line
+    device = devices(path)
+    read_fresh(device, lambda: os.write(near, b'x'))
+    os.write(near, b'read')
+    assert device.read() == b'read'
+    time.sleep(1.5 * Device.LONGEST_AGE)
+    assert not device.fresh()
+
+
+def test_what_comes_right_after_opening_is_late(listener, devices):
+    server, url = listener
+    device = devices(url)
+    client, _ = server.accept()
+    with client:
+        client.sendall(b'x')
+        assert receive(device, 1) == b'x'
+        assert not device.fresh()
+        assert read_fresh(device, lambda: client.sendall(b'y')).startswith(b'y')
+
+
+def test_device_without_a_file_is_read_fresh_and_late_too(devices):
+    device = devices('loop://')
+    assert read_fresh(device, lambda: device._port.write(b'x')) == b'x'
+    device._port.write(b'old')
+    time.sleep(1.5 * Device.LONGEST_AGE)
+    assert receive(device, 3) == b'old'
+    assert not device.fresh()
+
+
+def test_line_is_read_by_one_alone(line, devices):
+    devices(line[1])
+    with pytest.raises(OSError, match='lock'):
+        devices(line[1])
+
+
+@pytest.mark.parametrize('url', ['spy://{}?file={}', 'alt://{}?class=PosixPollSerial'])
+def test_handlers_around_a_serial_line_read_it(url, line, devices, tmp_path):
+    near, path = line
+    device = devices(url.format(path, tmp_path / 'spied'))
+    assert device.read() == b''
+    os.write(near, b'hello')
+    assert receive(device, 5) == b'hello'
+
+
+class Rfc2217Server(threading.Thread):
+    """Serves one connection of RFC 2217 with pyserial's own server class."""
+
+    def __init__(self, listener, data):
+        super().__init__(daemon=True)
+        self._listener = listener
+        self._data = data
+
+    def write(self, data):
+        self.connection.sendall(data)
+
+    def run(self):
+        self.connection, _ = self._listener.accept()
+        with self.connection, contextlib.suppress(OSError):
+            manager = PortManager(serial.serial_for_url('loop://'), self)
+            self.connection.sendall(b''.join(manager.escape(self._data)))
+            while received := self.connection.recv(1024):
+                list(manager.filter(received))
+            # The client has gone.
+
+
+def test_device_of_rfc_2217_is_read_and_its_end_noticed(listener):
+    server, url = listener
+    data = bytes(range(256))
+    served = Rfc2217Server(server, data)
+    served.start()
+    device = Device(url.replace('socket', 'rfc2217'), BAUD_RATE)
+    served.connection.sendall(data[:100])
+    assert receive(device, 100).endswith(data[:100])
+    assert device.read() == b''
+    served.connection.shutdown(socket.SHUT_RDWR)
+    with pytest.raises(OSError):
+        read_until_gone(device)
+    device.close()
+    served.join(PATIENCE)
+
+
+class OddPort:
+    """A port that throws what it is told to, where it is told to."""
+
+    def __init__(self, place, error):
+        self._place = place
+        self._error = error
+        self.timeout = 0
+
+    def _do(self, place, result):
+        if place == self._place:
+            raise self._error
+        return result
+
+    def open(self):
+        self._do('open', None)
+
+    def fileno(self):
+        raise io.UnsupportedOperation
+
+    @property
+    def in_waiting(self):
+        return self._do('in_waiting', 1)
+
+    def read(self, size):
+        return self._do('read', b'x' * size)
+
+    def close(self):
+        self._do('close', None)
+
+
+ERRORS = [
+    serial.SerialException('read failed: [Errno 5] Input/output error'),
+    serial.PortNotOpenError(),
+    OSError(5, 'Input/output error'),
+    termios.error(5, 'Input/output error'),
+    TypeError("'NoneType' object cannot be interpreted as an integer"),
+    ValueError('file descriptor cannot be a negative integer (-1)'),
+    AttributeError("'NoneType' object has no attribute 'recv'"),
+    struct.error('unpack requires a buffer of 4 bytes'),
+    KeyError(),
+]
+
+
+@pytest.mark.parametrize('error', ERRORS, ids=lambda error: type(error).__name__)
+@pytest.mark.parametrize('place', ['open', 'in_waiting', 'read'])
+def test_whatever_a_handler_throws_is_an_oserror_with_words(place, error, monkeypatch):
+    monkeypatch.setattr(serial, 'serial_for_url', lambda url, **settings: OddPort(place, error))
+    with pytest.raises(OSError) as raised:
+        Device('odd://', BAUD_RATE).read()
+    assert str(raised.value)
+
+
+def test_device_that_does_not_even_close_is_given_up_in_silence(monkeypatch):
+    port = OddPort('close', termios.error(5, 'Input/output error'))
+    monkeypatch.setattr(serial, 'serial_for_url', lambda url, **settings: port)
+    device = Device('odd://', BAUD_RATE)
+    assert device.read() == b'x'
+    device.close()
+
+
+@pytest.mark.parametrize('url', ['', 'hwgrep://[', 'alt:///dev/ttyS0?class=Nothing'])
+def test_url_that_no_handler_understands_is_refused_with_words(url):
+    with pytest.raises(ValueError, match='.'):
+        check_url(url)
+
+
+def test_device_that_is_looked_for_by_name_may_come_later():
+    assert check_url('hwgrep://no such device') is None
+    with pytest.raises(OSError, match='no such device'):
+        Device('hwgrep://no such device', BAUD_RATE)
