@@ -13,23 +13,24 @@
 # limitations under the License.
 """Reads the tactile sensor's sentences from a device and publishes them."""
 
+import math
 import sys
 import threading
 
-from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from rclpy.time import Time
 from sensor_msgs.msg import JointState
 
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
+from tactile_push.nodes.managed import ManagedNode
 from tactile_push.nodes.parameters import ConfigurationError, Parameter, declare
 from tactile_push.nodes.process import autostart, run
-from tactile_push.tactile import Reading, SentenceStream
-from tactile_push.tactile.device import Device, check_url
+from tactile_push.tactile import Reading
+from tactile_push.tactile.device import check_url
+from tactile_push.tactile.reader import Condition, SensorReader
 
-SHORTEST_RETRY, LONGEST_RETRY = 0.1, 2.0  # [s]
 
-
-class SensorDriver(LifecycleNode):
+class SensorDriver(ManagedNode):
     """Managed node: device bytes in, `tactile` out."""
 
     NAME = 'sensor_driver'
@@ -46,7 +47,12 @@ class SensorDriver(LifecycleNode):
             'baud_rate', 115200, 'bit/s', 'speed of a serial line', 50, 4000000, read_only=True
         ),
         Parameter(
-            'silence_timeout', 0.3, 's', 'without a sentence for so long is an error', 0.01, 60.0
+            'silence_timeout',
+            0.3,
+            's',
+            'without a reading for so long is an error, by the steady clock',
+            0.01,
+            60.0,
         ),
         Parameter(
             'autostart', True, '', 'configure and activate without a manager', read_only=True
@@ -60,12 +66,15 @@ class SensorDriver(LifecycleNode):
             check_url(self._settings.device)
         except ValueError as error:
             raise ConfigurationError(f'parameter device: {error}') from None
-        self._stream = SentenceStream()
-        self._reader: threading.Thread | None = None
-        self._stopping = threading.Event()
-        self._connected = False
-        self._connections = 0
-        self._last_sentence: Time | None = None
+        self._readings = 0
+        self._unstamped = 0
+        self._reader = SensorReader(
+            self._settings.device,
+            self._settings.baud_rate,
+            clock=lambda: self.get_clock().now().nanoseconds,
+            hear=self._publish,
+            change=self._log_change,
+        )
         self._diagnostics = Diagnostics(self, self._health, self._counts)
         if self._settings.autostart:
             autostart(self)
@@ -78,14 +87,12 @@ class SensorDriver(LifecycleNode):
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Start to read the device."""
         result = super().on_activate(state)
-        self._stopping.clear()
-        self._reader = threading.Thread(target=self._read, name='device', daemon=True)
         self._reader.start()
         return result
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Let go of the device."""
-        self._stop_reading()
+        self._reader.stop()
         return super().on_deactivate(state)
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -95,93 +102,89 @@ class SensorDriver(LifecycleNode):
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Let go of the device for good."""
-        self._stop_reading()
+        self._reader.stop()
         return TransitionCallbackReturn.SUCCESS
 
     def destroy_node(self) -> None:
         """Let go of the device and end."""
-        self._stop_reading()
+        self._reader.stop()
         super().destroy_node()
 
-    def _stop_reading(self) -> None:
-        self._stopping.set()
-        if self._reader is not None:
-            self._reader.join()
-            self._reader = None
-
-    def _read(self) -> None:
-        """Read the device until told to stop, and open it again whenever it goes away."""
-        retry = SHORTEST_RETRY
-        complaint = ''
-        while not self._stopping.is_set():
-            try:
-                device = Device(self._settings.device, self._settings.baud_rate)
-            except OSError as error:
-                if str(error) != complaint:
-                    complaint = str(error)
-                    self.get_logger().warning(f'{error}; trying on')
-                self._stopping.wait(retry)
-                retry = min(2.0 * retry, LONGEST_RETRY)
-                continue
-            self.get_logger().info(f'reading {self._settings.device}')
-            retry = SHORTEST_RETRY
-            complaint = ''
-            self._connections += 1
-            self._connected = True
-            self._stream.restart()
-            try:
-                while not self._stopping.is_set():
-                    for reading in self._stream.feed(device.read()):
-                        self._publish(reading)
-            except OSError as error:
-                self.get_logger().warning(f'{self._settings.device}: {error}')
-                self._stopping.wait(retry)
-            finally:
-                self._connected = False
-                device.close()
-
-    def _publish(self, reading: Reading) -> None:
-        self._last_sentence = self.get_clock().now()
-        if self._last_sentence.nanoseconds == 0:
+    def _publish(self, readings: list[Reading], stamp: int) -> None:
+        """Publish what one read gave; stamps grow by 1 ns up to the time of the read."""
+        first = stamp - len(readings) + 1
+        if first <= 0:
+            self._unstamped += len(readings)
             return  # simulated time has not begun, so there is no stamp to give
-        message = JointState()
-        message.header.stamp = self._last_sentence.to_msg()
-        message.name = ['azimuth', 'elevation', 'normal_force']
-        message.position = [reading.azimuth, reading.elevation, float('nan')]
-        message.velocity = [float('nan')] * 3
-        message.effort = [float('nan'), float('nan'), reading.normal_force]
-        self._publisher.publish(message)
+        for nanoseconds, reading in enumerate(readings, first):
+            message = JointState()
+            message.header.stamp = Time(nanoseconds=nanoseconds).to_msg()
+            message.name = ['azimuth', 'elevation', 'normal_force']
+            message.position = [reading.azimuth, reading.elevation, math.nan]
+            message.velocity = [math.nan] * 3
+            message.effort = [math.nan, math.nan, reading.normal_force]
+            self._publisher.publish(message)
+        self._readings += len(readings)
+
+    def _log_change(self, problem: str) -> None:
+        device = self._settings.device
+        if problem:
+            self.get_logger().warning(f'{device}: {problem}; trying on')
+        else:
+            self.get_logger().info(f'reading {device}')
 
     def _counts(self) -> dict[str, int]:
-        stream = self._stream
+        stream = self._reader.stream
         return {
-            'connections': self._connections,
-            'readings': stream.received - stream.repeated,
+            'bytes': self._reader.bytes_read,
+            'readings': self._readings,
+            'connections': self._reader.connections,
+            'reconnects': self._reader.reconnects,
             'lost': stream.lost,
             'repeated': stream.repeated,
+            'late': stream.late,
+            'unstamped': self._unstamped,
             'sensor restarts': stream.restarts,
             **{f'dropped: {reason}': count for reason, count in stream.dropped.copy().items()},
         }
 
     def _health(self) -> Health:
-        values = {'device': self._settings.device}
-        if self._reader is None:
-            return Health(OK, 'inactive', values)
-        if not self._connected:
-            return Health(ERROR, 'device not there', values)
-        if self._last_sentence is None:
-            return Health(ERROR, 'no valid sentence yet', values)
-        silence = (self.get_clock().now() - self._last_sentence).nanoseconds * 1e-9
-        if silence > self._settings.silence_timeout:
-            return Health(ERROR, 'sensor silent', values)
-        if any(self._diagnostics.rates[f'dropped: {reason}'] for reason in self._stream.dropped):
-            return Health(WARN, 'sentences dropped', values)
-        return Health(OK, 'reading', values)
+        condition = self._reader.condition(self._settings.silence_timeout)
+        values = {
+            'device': self._settings.device,
+            'problem': self._reader.problem,
+            'age of last reading [s]': f'{self._reader.age():.3f}',
+        }
+        if condition == Condition.INACTIVE:
+            return Health(OK, condition.value, values)
+        if condition != Condition.READING:
+            return Health(ERROR, condition.value, values)
+        rates = self._diagnostics.rates
+        for message, slips in (
+            ('no simulated time yet', ['unstamped']),
+            ('readings late', ['late']),
+            ('readings lost', ['lost']),
+            ('sentences repeated', ['repeated']),
+            ('sentences dropped', [name for name in rates if name.startswith('dropped: ')]),
+        ):
+            if any(rates[name] for name in slips):
+                return Health(WARN, message, values)
+        return Health(OK, condition.value, values)
 
 
 def main() -> int:
     """Run the node as a process."""
+    threading.excepthook = _report
     return run(SensorDriver)
+
+
+def _report(thread: threading.ExceptHookArgs) -> None:
+    """Report what ends a thread, but not a thread of pyserial, whose port then says that it ended.
+
+    The one of rfc2217:// does not outlive bytes that are no proper Telnet.
+    """
+    if thread.thread is None or not thread.thread.name.startswith('pySerial'):
+        threading.__excepthook__(thread)
 
 
 if __name__ == '__main__':
