@@ -28,7 +28,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from conftest import Observer
+from conftest import Observer, Rig
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from lifecycle_msgs.msg import Transition
 from sensor_msgs.msg import JointState
@@ -321,6 +321,17 @@ def test_nothing_that_came_while_the_driver_was_stopped_is_published(driver: Dri
         assert old == []
     driver.wait_for(lambda: driver.counted('late') > 50, 'the late readings to be counted')
     assert driver.forces == sorted(set(driver.forces))
+
+
+def test_simulated_time_goes_on_after_the_driver_was_stopped(rig: Rig):
+    rig.start()
+    rig.wait_until_moving()
+    driver = rig.nodes.running['sensor_driver']
+    driver.send_signal(signal.SIGSTOP)
+    rig.wait_until_resting()
+    driver.send_signal(signal.SIGCONT)
+    # The plant waits for the contact of a reading that was late, and sends it again.
+    rig.wait_until_moving()
 
 
 def test_half_of_the_sentences_corrupted_costs_those_and_no_others(driver: Driver):

@@ -274,6 +274,23 @@ def test_stop_lets_go_of_a_silent_device_at_once_and_it_can_be_started_again(dev
     sensor.stop()
 
 
+def test_stop_closes_a_tcp_connection_although_pyserial_sleeps_after_that(log, readers):
+    took = []
+    with socket.create_server(('127.0.0.1', 0)) as server:
+        sensor = readers(f'socket://127.0.0.1:{server.getsockname()[1]}')
+        for _ in range(3):
+            sensor.start()
+            connection, _ = server.accept()
+            with connection:
+                wait_for(lambda: sensor.condition(PATIENCE) is Condition.STARTING, 'the opening')
+                began = time.monotonic()
+                sensor.stop()
+                took.append(time.monotonic() - began)
+                connection.settimeout(PATIENCE)
+                assert connection.recv(1) == b''
+    assert min(took) < 0.3
+
+
 def test_stop_does_not_wait_for_a_device_that_blocks_and_nothing_is_heard_of_it(
     device, log, readers
 ):

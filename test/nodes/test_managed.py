@@ -1,0 +1,79 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""A managed node does what its state allows, and outlives being asked for anything else."""
+
+import random
+
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from lifecycle_msgs.msg import Transition  # noqa: E402
+from lifecycle_msgs.srv import ChangeState  # noqa: E402
+from rclpy.context import Context  # noqa: E402
+from rclpy.executors import SingleThreadedExecutor  # noqa: E402
+
+from tactile_push.nodes.managed import ManagedNode  # noqa: E402
+
+
+@pytest.fixture
+def ask(monkeypatch):
+    """Return what asks a node's service for a transition, spinning both ends."""
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    context = Context()
+    rclpy.init(context=context, domain_id=random.randint(1, 100))
+    # The node takes the default context, which is that of its process.
+    monkeypatch.setattr('rclpy.node.get_default_context', lambda: context)
+    node = ManagedNode('managed')
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    client = node.create_client(ChangeState, 'managed/change_state')
+
+    def ask(transition=0, label=''):
+        request = ChangeState.Request(transition=Transition(id=transition, label=label))
+        future = client.call_async(request)
+        executor.spin_until_future_complete(future, timeout_sec=30.0)
+        return future.result().success
+
+    yield ask
+    executor.shutdown()
+    node.destroy_node()
+    rclpy.shutdown(context=context)
+
+
+def test_transitions_of_the_state_are_made_and_others_refused(ask):
+    assert not ask(Transition.TRANSITION_ACTIVATE)
+    assert not ask(Transition.TRANSITION_DEACTIVATE)
+    assert ask(Transition.TRANSITION_CONFIGURE)
+    assert not ask(Transition.TRANSITION_CONFIGURE)
+    assert ask(Transition.TRANSITION_ACTIVATE)
+    assert not ask(Transition.TRANSITION_CLEANUP)
+    assert ask(Transition.TRANSITION_DEACTIVATE)
+    assert ask(Transition.TRANSITION_CLEANUP)
+
+
+def test_transitions_are_known_by_their_labels_too(ask):
+    assert not ask(label='activate')
+    assert ask(label='configure')
+    assert ask(label='activate')
+    assert not ask(label='nonsense')
+    assert ask(label='shutdown')
+    for label in ('configure', 'activate', 'shutdown'):
+        assert not ask(label=label)
+
+
+@pytest.mark.parametrize('transition', [0, 8, 99, 255])
+def test_transition_that_nobody_knows_is_refused(ask, transition):
+    assert not ask(transition)
+    assert ask(Transition.TRANSITION_CONFIGURE)
