@@ -24,7 +24,7 @@ from sensor_msgs.msg import JointState
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.managed import ManagedNode
 from tactile_push.nodes.parameters import ConfigurationError, Parameter, declare
-from tactile_push.nodes.process import autostart, run
+from tactile_push.nodes.process import run
 from tactile_push.tactile import Reading
 from tactile_push.tactile.device import check_url
 from tactile_push.tactile.reader import Condition, SensorReader
@@ -77,7 +77,7 @@ class SensorDriver(ManagedNode):
         )
         self._diagnostics = Diagnostics(self, self._health, self._counts)
         if self._settings.autostart:
-            autostart(self)
+            self.autostart()
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Create the publisher."""
