@@ -31,6 +31,7 @@ from tactile_push.tactile import decode
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / 'README.md').read_text()
 THEORY = (ROOT / 'docs' / 'theory.md').read_text()
+SAFETY = (ROOT / 'docs' / 'safety.md').read_text()
 WIRE_FORMAT = (ROOT / 'docs' / 'wire_format.md').read_text()
 
 
@@ -87,6 +88,18 @@ def test_theory_names_what_there_is():
             thing = getattr(thing, part, None)
     for equation in range(1, 19):
         assert f'({equation})' in THEORY
+
+
+def test_every_promise_names_tests_that_there_are():
+    tables = re.split(r'^\| promise .*\n', SAFETY, flags=re.MULTILINE)[1:]
+    promises = [row for table in tables for row in table.split('\n\n')[0].splitlines()[1:]]
+    assert len(promises) > 20
+    tests = ''.join(file.read_text() for file in (ROOT / 'test').rglob('test_*.py'))
+    for promise in promises:
+        named = re.findall(r'`(test_\w+)`', promise)
+        assert named, promise
+        for name in named:
+            assert f'def {name}(' in tests, name
 
 
 def test_examples_of_the_wire_format_are_valid():

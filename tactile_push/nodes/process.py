@@ -20,7 +20,6 @@ from types import FrameType
 
 import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
@@ -29,24 +28,6 @@ from rclpy.utilities import remove_ros_args
 from tactile_push.nodes.parameters import ConfigurationError
 
 SLICE = 0.05  # longest time between a signal and its effect [s]
-
-
-def autostart(node: LifecycleNode) -> None:
-    """Configure and activate a managed node without a lifecycle manager.
-
-    Parameters
-    ----------
-    node : LifecycleNode
-        The node, unconfigured.
-
-    Raises
-    ------
-    ConfigurationError
-        If one of the transitions fails; the node has logged why.
-    """
-    for transition in (node.trigger_configure, node.trigger_activate):
-        if transition() != TransitionCallbackReturn.SUCCESS:
-            raise ConfigurationError('could not start, see above')
 
 
 def run(node_class: type[Node]) -> int:

@@ -23,18 +23,26 @@ from lifecycle_msgs.msg import Transition  # noqa: E402
 from lifecycle_msgs.srv import ChangeState  # noqa: E402
 from rclpy.context import Context  # noqa: E402
 from rclpy.executors import SingleThreadedExecutor  # noqa: E402
+from rclpy.lifecycle import TransitionCallbackReturn  # noqa: E402
 
 from tactile_push.nodes.managed import ManagedNode  # noqa: E402
+from tactile_push.nodes.parameters import ConfigurationError  # noqa: E402
 
 
 @pytest.fixture
-def ask(monkeypatch):
-    """Return what asks a node's service for a transition, spinning both ends."""
+def context(monkeypatch):
+    """Make a context that nodes take for that of their process."""
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     context = Context()
     rclpy.init(context=context, domain_id=random.randint(1, 100))
-    # The node takes the default context, which is that of its process.
     monkeypatch.setattr('rclpy.node.get_default_context', lambda: context)
+    yield context
+    rclpy.shutdown(context=context)
+
+
+@pytest.fixture
+def ask(context):
+    """Return what asks a node's service for a transition, spinning both ends."""
     node = ManagedNode('managed')
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
@@ -49,7 +57,45 @@ def ask(monkeypatch):
     yield ask
     executor.shutdown()
     node.destroy_node()
-    rclpy.shutdown(context=context)
+
+
+class Told(ManagedNode):
+    """A managed node whose transitions end as told."""
+
+    def __init__(self, configure, activate):
+        super().__init__('managed')
+        self.results = {'configure': configure, 'activate': activate}
+        self.calls = []
+
+    def on_configure(self, state):
+        self.calls.append('configure')
+        return self.results['configure']
+
+    def on_activate(self, state):
+        self.calls.append('activate')
+        return self.results['activate']
+
+
+SUCCESS, FAILURE = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE
+
+
+def test_autostart_configures_and_activates(context):
+    node = Told(SUCCESS, SUCCESS)
+    node.autostart()
+    assert node.calls == ['configure', 'activate']
+    node.destroy_node()
+
+
+@pytest.mark.parametrize(
+    ('configure', 'activate', 'calls'),
+    [(FAILURE, SUCCESS, ['configure']), (SUCCESS, FAILURE, ['configure', 'activate'])],
+)
+def test_autostart_that_fails_is_a_refusal(context, configure, activate, calls):
+    node = Told(configure, activate)
+    with pytest.raises(ConfigurationError):
+        node.autostart()
+    assert node.calls == calls
+    node.destroy_node()
 
 
 def test_transitions_of_the_state_are_made_and_others_refused(ask):

@@ -152,7 +152,7 @@ def test_descriptor_tells_unit_range_and_whether_it_is_fixed(parameter):
 
 
 # Quantities without a unit: shares, counts and coefficients.
-WITHOUT_UNIT = {'mu_c', 'max_out_of_plane', 'steps'}
+WITHOUT_UNIT = {'mu_c', 'max_out_of_plane', 'max_ticks_lost', 'steps'}
 
 
 @pytest.mark.parametrize('parameter', DECLARED)

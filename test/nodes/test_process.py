@@ -14,7 +14,6 @@
 """A node as a process: its help, its refusals and its end, as a shell sees them."""
 
 import contextlib
-import random
 import signal
 import subprocess
 import sys
@@ -25,11 +24,8 @@ import pytest
 rclpy = pytest.importorskip('rclpy')
 
 from rclpy.context import Context  # noqa: E402
-from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn  # noqa: E402
 
 from tactile_push.nodes.contact_geometry import ContactGeometry  # noqa: E402
-from tactile_push.nodes.parameters import ConfigurationError  # noqa: E402
-from tactile_push.nodes.process import autostart  # noqa: E402
 from tactile_push.processes import NodeProcesses  # noqa: E402
 
 PATIENCE = 60.0  # [s]
@@ -193,58 +189,3 @@ def test_place_that_cannot_be_served_is_refused_by_name(environment, tmp_path):
     line = refused(environment, '--ros-args', '-p', f'device:={place}', node='sim_plant')
     assert line.startswith('sim_plant: parameter device: ')
     assert str(place) in line
-
-
-class Managed(LifecycleNode):
-    """A managed node whose transitions end as told."""
-
-    def __init__(self, context, configure, activate):
-        super().__init__('managed', context=context, enable_rosout=False)
-        self.results = {'configure': configure, 'activate': activate}
-        self.calls = []
-
-    def on_configure(self, state):
-        self.calls.append('configure')
-        return self.results['configure']
-
-    def on_activate(self, state):
-        self.calls.append('activate')
-        return self.results['activate']
-
-
-SUCCESS, FAILURE = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE
-
-
-@pytest.fixture
-def managed(monkeypatch):
-    """Return a maker of managed nodes in a context of their own."""
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    context = Context()
-    rclpy.init(context=context, domain_id=random.randint(1, 100))
-    nodes = []
-
-    def make(configure, activate):
-        nodes.append(Managed(context, configure, activate))
-        return nodes[-1]
-
-    yield make
-    for node in nodes:
-        node.destroy_node()
-    rclpy.shutdown(context=context)
-
-
-def test_autostart_configures_and_activates(managed):
-    node = managed(SUCCESS, SUCCESS)
-    autostart(node)
-    assert node.calls == ['configure', 'activate']
-
-
-@pytest.mark.parametrize(
-    ('configure', 'activate', 'calls'),
-    [(FAILURE, SUCCESS, ['configure']), (SUCCESS, FAILURE, ['configure', 'activate'])],
-)
-def test_autostart_that_fails_is_a_refusal(managed, configure, activate, calls):
-    node = managed(configure, activate)
-    with pytest.raises(ConfigurationError):
-        autostart(node)
-    assert node.calls == calls
