@@ -23,6 +23,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
+from tactile_push.nodes.node_time import NodeTime
 from tactile_push.nodes.parameters import ConfigurationError, Parameter, declare
 from tactile_push.nodes.process import run
 from tactile_push.tactile import (
@@ -136,10 +137,9 @@ class ContactGeometry(Node):
             joint_state_timeout=p.joint_state_timeout if p.use_joint_states else None,
         )
         self._take_parameters()
-        # Seconds since the node's start have room for the nanoseconds behind the point.
-        self._epoch = self.get_clock().now().nanoseconds // 10**9
+        self._time = NodeTime(self)
         self._counted = Counter(readings=0, contacts=0)
-        self._stamp = float('nan')  # of the last reading, since the epoch [s]
+        self._stamp = float('nan')  # of the last reading [s]
         self._heard = self._useful = time.monotonic()  # when the last reading, the last useful came
         self._feels = ''  # what the last useful reading said
         self._refusal = ''  # why the last refused one was refused
@@ -170,7 +170,7 @@ class ContactGeometry(Node):
         except (ValueError, IndexError):
             self._counted['joint states of other joints'] += 1
             return
-        if self._finder.joints(self._seconds(message), angles):
+        if self._finder.joints(self._time.of(message.header.stamp), angles):
             self._counted['joint states'] += 1
         else:
             self._counted['joint states refused'] += 1
@@ -181,7 +181,7 @@ class ContactGeometry(Node):
         if now - self._heard > PATIENCE:
             self._useful = now  # after a silence patience starts over
         self._heard = now
-        self._stamp = self._seconds(message)
+        self._stamp = self._time.of(message.header.stamp)
         try:
             contact = self._finder.contact(_reading(message), self._stamp)
         except ReadingRejectedError as reason:
@@ -205,13 +205,8 @@ class ContactGeometry(Node):
         else:
             self._refusal = reason
 
-    def _seconds(self, message: JointState) -> float:
-        stamp = message.header.stamp
-        return stamp.sec - self._epoch + stamp.nanosec * 1e-9
-
     def _health(self) -> Health:
-        now = self.get_clock().now().nanoseconds * 1e-9 - self._epoch
-        values = {'age of the last reading [s]': f'{now - self._stamp:.3f}'}
+        values = {'age of the last reading [s]': f'{self._time.now() - self._stamp:.3f}'}
         if self._finder.pole is not None:
             values['age of the joint state used [s]'] = f'{self._finder.pole.age:.4f}'
         if time.monotonic() - self._heard > PATIENCE:

@@ -19,15 +19,14 @@ import sys
 from types import FrameType
 
 import rclpy
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import ExternalShutdownException
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
+from tactile_push.nodes.executor import Executor
 from tactile_push.nodes.parameters import ConfigurationError
-
-SLICE = 0.05  # longest time between a signal and its effect [s]
 
 
 def run(node_class: type[Node]) -> int:
@@ -73,11 +72,11 @@ def run(node_class: type[Node]) -> int:
     except ConfigurationError as error:
         rclpy.try_shutdown()
         return _refuse(node_class, str(error))
-    executor = SingleThreadedExecutor()
+    executor = Executor()
     executor.add_node(node)
     try:
         while not stopping and rclpy.ok():
-            executor.spin_once(timeout_sec=SLICE)
+            executor.spin_once()
     except ExternalShutdownException:
         pass
     finally:

@@ -39,6 +39,7 @@ from tactile_push.control import (
 )
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.managed import ManagedNode
+from tactile_push.nodes.node_time import NodeTime
 from tactile_push.nodes.parameters import ConfigurationError, declare
 from tactile_push.nodes.process import run
 from tactile_push.nodes.push_controller_parameters import (
@@ -72,6 +73,7 @@ class PushController(ManagedNode):
             self._finger = make_finger(self._settings)
         except ValueError as error:
             raise ConfigurationError(f'parameter {error}') from None
+        self._time = NodeTime(self)
         self._timer: Timer | None = None
         self._tick: Tick | None = None
         self._sent: deque[tuple[int, int, float]] = deque(maxlen=REMEMBERED)
@@ -107,7 +109,7 @@ class PushController(ManagedNode):
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Start the law."""
         result = super().on_activate(state)
-        self._control.activate(self._now())
+        self._control.activate(self._time.now())
         self._start_timer()
         return result
 
@@ -138,9 +140,6 @@ class PushController(ManagedNode):
     def _take_parameters(self) -> None:
         take_values(self._control, self._settings)
 
-    def _now(self) -> float:
-        return self.get_clock().now().nanoseconds * 1e-9
-
     def _start_timer(self) -> None:
         """Start to tick, on a clock that nobody can set unless time is simulated."""
         simulated = self.get_clock().ros_time_is_active
@@ -148,7 +147,7 @@ class PushController(ManagedNode):
         self._timer = self.create_timer(self._control.period, self._on_tick, clock=clock)
 
     def _on_clock_jump(self, jump: TimeJump) -> None:
-        self._control.notice_clock_jump(self._now())
+        self._control.notice_clock_jump(self._time.now())
         self._clock_jumped.trigger()  # while the clock calls, its timers cannot be changed
 
     def _after_clock_jump(self) -> None:
@@ -163,7 +162,7 @@ class PushController(ManagedNode):
         theta = yaw_of_quaternion(rotation.x, rotation.y, rotation.z, rotation.w)
         if not plausible(theta):
             self._counted['implausible contacts'] += 1
-        self._control.feel(theta, _seconds(message))
+        self._control.feel(theta, self._time.of(message.header.stamp))
         self._counted['contacts'] += 1
 
     def _on_joint_states(self, message: JointState) -> None:
@@ -176,7 +175,7 @@ class PushController(ManagedNode):
         except ValueError:
             self._counted['joint states without a number'] += 1
             return
-        self._control.locate_finger(x, _seconds(message))
+        self._control.locate_finger(x, self._time.of(message.header.stamp))
 
     def _on_command(self, message: TwistStamped) -> None:
         stamp = message.header.stamp
@@ -194,9 +193,9 @@ class PushController(ManagedNode):
 
     def _on_tick(self) -> None:
         clock = self.get_clock()
-        now = clock.now()
         steady = None if clock.ros_time_is_active else time.monotonic()
-        self._tick = self._control.tick(now.nanoseconds * 1e-9, steady)
+        self._tick = self._control.tick(self._time.now(), steady)
+        now = clock.now()
         if self._tick.v_x is not None:
             self._publish_command(now, self._tick.v_x)
         self._publish_state(now, self._tick)
@@ -280,10 +279,6 @@ def _words(tick: Tick) -> str:
         return tick.state
     hint = ', until resumed' if tick.stop_reason in HELD else ''
     return f'{tick.state}: {tick.stop_reason}{hint}'
-
-
-def _seconds(message: PoseStamped | JointState) -> float:
-    return Time.from_msg(message.header.stamp).nanoseconds * 1e-9
 
 
 def main() -> int:

@@ -66,6 +66,13 @@ class SensorDriver(ManagedNode):
             check_url(self._settings.device)
         except ValueError as error:
             raise ConfigurationError(f'parameter device: {error}') from None
+        nothing = [math.nan] * 3
+        self._message = JointState(
+            name=['azimuth', 'elevation', 'normal_force'],
+            position=nothing,
+            velocity=nothing,
+            effort=nothing,
+        )
         self._readings = 0
         self._unstamped = 0
         self._reader = SensorReader(
@@ -116,13 +123,11 @@ class SensorDriver(ManagedNode):
         if first <= 0:
             self._unstamped += len(readings)
             return  # simulated time has not begun, so there is no stamp to give
+        message = self._message
         for nanoseconds, reading in enumerate(readings, first):
-            message = JointState()
             message.header.stamp = Time(nanoseconds=nanoseconds).to_msg()
-            message.name = ['azimuth', 'elevation', 'normal_force']
-            message.position = [reading.azimuth, reading.elevation, math.nan]
-            message.velocity = [math.nan] * 3
-            message.effort = [math.nan, math.nan, reading.normal_force]
+            message.position[0], message.position[1] = reading.azimuth, reading.elevation
+            message.effort[2] = reading.normal_force
             self._publisher.publish(message)
         self._readings += len(readings)
 

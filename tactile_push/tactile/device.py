@@ -86,7 +86,8 @@ class Device:
         """
         try:
             began = time.monotonic()
-            if not self._bytes_are_there(0.0):
+            # Not asked again when it was just read empty: a wait for bytes still fits in their age.
+            if began - self._empty_at > self.LONGEST_WAIT / 2.0 and not self._bytes_are_there(0.0):
                 self._note_empty(began)
             self._came_after = self._empty_at
             if self._file is None:
