@@ -33,9 +33,10 @@ from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
-STATE_FIELDS = 12  # of push_controller/state
+STATE_FIELDS = 14  # of push_controller/state
 TRUTH_FIELDS = 7  # of ground_truth/state
 DIAGNOSTIC_VALUES = 10
 DIAGNOSTIC_LOOKS = 10  # a second, of which the last one reports
@@ -109,16 +110,23 @@ class BareGeometry(Node):
 
 
 class BareController(LifecycleNode):
-    """`contact` in, `finger/cmd_vel` and `push_controller/state` out."""
+    """`contact` in, `finger/cmd_vel` and `push_controller/state` out.
+
+    As the real one, it hears `joint_states` and its own command too.
+    """
 
     def __init__(self) -> None:
         super().__init__('push_controller')
         rate = self.declare_parameter('control_rate', 10.0).value
-        freshest = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+        newest = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
         self._value = math.nan
         self._command = self.create_publisher(TwistStamped, 'finger/cmd_vel', 10)
         self._state = self.create_publisher(JointState, 'push_controller/state', 10)
-        self.create_subscription(PoseStamped, 'contact', self._on_contact, freshest)
+        self.create_subscription(JointState, 'joint_states', lambda message: None, newest)
+        self.create_subscription(PoseStamped, 'contact', self._on_contact, newest)
+        self.create_subscription(TwistStamped, 'finger/cmd_vel', lambda message: None, 10)
+        self.create_service(Trigger, 'push_controller/resume', lambda request, response: response)
+        self.create_guard_condition(lambda: None)
         self.create_timer(1.0 / rate, self._on_timer)
         self._reporter = Reporter(self)
 
