@@ -14,18 +14,31 @@
 """The rig that stands in for the hardware, alone or inside the plant node."""
 
 from tactile_push.simulation.batch import Rollouts, rollouts
+from tactile_push.simulation.belt import Belt
 from tactile_push.simulation.device import DeviceServer, serve
 from tactile_push.simulation.experiment import experiment
+from tactile_push.simulation.faults import Faults
 from tactile_push.simulation.files import read_object, read_support
 from tactile_push.simulation.rig import Rig, RigConfig, paper_block, paper_disk
 from tactile_push.simulation.rollout import Rollout, rollout
+from tactile_push.simulation.sensor import Readout, Sample, Sensor
+from tactile_push.simulation.servo import Servo, Workspace
+from tactile_push.simulation.uneven_friction import UnevenFriction
 
 __all__ = [
+    'Belt',
     'DeviceServer',
+    'Faults',
+    'Readout',
     'Rig',
     'RigConfig',
     'Rollout',
     'Rollouts',
+    'Sample',
+    'Sensor',
+    'Servo',
+    'UnevenFriction',
+    'Workspace',
     'experiment',
     'paper_block',
     'paper_disk',

@@ -17,7 +17,7 @@ import math
 import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from itertools import pairwise
 
 import numpy as np
@@ -28,6 +28,7 @@ from tactile_push.mechanics import Slider, check_friction, friction_cone
 from tactile_push.mechanics.compiled import Array, compiled
 from tactile_push.mechanics.contact import CURVATURE
 from tactile_push.simulation.rollout import QUANTITIES, check_ahead, check_time, check_towards, run
+from tactile_push.simulation.servo import Servo
 
 CHUNKS_PER_WORKER = 8
 PHI_MIN, PHI_MAX = math.radians(33.0), math.radians(147.0)  # V.A
@@ -89,6 +90,7 @@ def _run_many(
     period: float,
     belt_speed: float,
     r: float,
+    servos: Array | None,
     band: float,
     histories: Array,
     ends: npt.NDArray[np.int64],
@@ -104,6 +106,10 @@ def _run_many(
             support = None
         else:
             support = points[:, point_ends[j] : point_ends[j + 1]]
+        if servos is None:  # noqa: SIM108
+            servo = None
+        else:
+            servo = servos[i]
         ends[i, 0], ends[i, 1] = run(
             starts[i, 0],
             starts[i, 1],
@@ -123,6 +129,7 @@ def _run_many(
             cones[i, 0],
             cones[i, 1],
             r,
+            servo,
             band,
             histories[i],
         )
@@ -144,13 +151,14 @@ def rollouts(
     period: float = 0.1,
     belt_speed: float = 0.005,
     radius: float = 0.0135,
+    servo: Servo | Sequence[Servo] | None = None,
     band: float = SETTLED,
     history: bool = False,
 ) -> Rollouts:
     """Push very many objects with the control law, on all cores.
 
-    Arguments that are array_like are broadcast against each other and the sliders to the shape
-    (B,). With both gains 0 the pushes are open loop.
+    Arguments that are array_like are broadcast against each other, the sliders and the servos to
+    the shape (B,). With both gains 0 the pushes are open loop.
 
     Parameters
     ----------
@@ -179,6 +187,8 @@ def rollouts(
         Speed of the belt, v_y [m/s].
     radius : float, optional
         Effective radius of the finger's disk [m].
+    servo : Servo or sequence of Servo, length 1 or B, optional
+        How the finger follows its command, at rest in the beginning; perfectly by default.
     band : float, optional
         How near theta must stay to its desired value to have settled [rad].
     history : bool, optional
@@ -225,6 +235,12 @@ def rollouts(
     arrays['mu_c'] = np.asarray(mu_c, dtype=float)
     for friction in np.unique(arrays['mu_c']):
         check_friction(float(friction))
+    if servo is not None:
+        several = [servo] if isinstance(servo, Servo) else list(servo)
+        arrays |= {
+            f'servo.{one.name}': np.array([getattr(each, one.name) for each in several])
+            for one in fields(Servo)
+        }
     index = {id(one): position for position, one in reversed(list(enumerate(sliders)))}
     which = np.array([index[id(one)] for one in sliders])
     shapes = {'slider': which.shape, **{name: array.shape for name, array in arrays.items()}}
@@ -261,6 +277,9 @@ def rollouts(
         [start[name] for name in ('kp', 'kd', 'theta_desired', 'phi_min', 'phi_max')], axis=1
     )
     cones = np.array([friction_cone(friction) for friction in start['mu_c'].tolist()])
+    servos = None
+    if servo is not None:
+        servos = np.stack([start[f'servo.{one.name}'] for one in fields(Servo)], axis=1)
     ratios = np.array([one.c for one in objects])
     path_ends = np.cumsum([0, *(len(path) for path in paths)])
     point_ends = np.cumsum([0, *(points.shape[1] for points in supports)])
@@ -283,6 +302,7 @@ def rollouts(
             period,
             belt_speed,
             radius,
+            servos,
             band,
             histories,
             ends,

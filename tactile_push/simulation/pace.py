@@ -22,7 +22,9 @@ class Pace:
     Simulated time waits for two things. It does not pass the moment at which the next command is
     due before that command is there. And it does not go on before the last reading has become a
     contact with the reading's own stamp: a driver that reads late would stamp with a later time
-    than the sensor's. So a loaded machine makes an experiment slower, not different. What is
+    than the sensor's. So a loaded machine makes an experiment slower, not different. A reading from
+    which no contact need follow, because it is lost, tells of none or is an outlier, is not waited
+    for: that would cost the patience each time. What is
     overdue by `patience` of wall time is not waited for any more until it comes again: somebody
     has gone.
 
@@ -45,6 +47,12 @@ class Pace:
         self._command = math.nan  # not waited for
         self._contact = math.nan  # not waited for
         self._reading = math.nan
+        self._contact_overdue = False
+
+    @property
+    def contact_overdue(self) -> bool:
+        """Whether time stands because a reading has not become a contact."""
+        return self._contact_overdue
 
     @property
     def commanded(self) -> bool:
@@ -105,17 +113,18 @@ class Pace:
             return False
         due = self._command + self._control_period
         command_overdue = time > due + step / 2.0
-        contact_overdue = self._contact < self._reading - step / 2.0
-        if command_overdue or contact_overdue:
+        self._contact_overdue = self._contact < self._reading - step / 2.0
+        if command_overdue or self._contact_overdue:
             if math.isnan(self._held_since):
                 self._held_since = wall
             if wall - self._held_since < self._patience:
                 return False
             if command_overdue:
                 self._command = math.nan
-            if contact_overdue:
+            if self._contact_overdue:
                 self._contact = math.nan
         self._held_since = math.nan
+        self._contact_overdue = False
         looping = self.commanded and not math.isnan(self._contact)
         pause = step / (self._factor if looping else min(self._factor, 1.0))
         self._next_wall = max(self._next_wall + pause, wall)

@@ -31,6 +31,8 @@ from tactile_push.mechanics import (
     reach,
     tangent_angle,
 )
+from tactile_push.simulation.faults import NO_FAULTS, Faults
+from tactile_push.simulation.servo import DelayLine, lagged, quantised
 from tactile_push.tactile import (
     NO_CONTACT,
     FingerPose,
@@ -143,9 +145,19 @@ class Rig:
     ----------
     config : RigConfig
         What the rig is made of and where it starts.
+    faults : Faults, optional
+        How far it is from a perfect one; its sensor is left to whoever reads.
 
     Attributes
     ----------
+    faults : Faults
+        As above; may be replaced at any time.
+    time : float
+        How long it has been in motion [s].
+    v_x : float
+        The finger's velocity across the belt at the end of the last step [m/s].
+    v_y : float
+        The belt's speed at the end of the last step [m/s].
     finger_x, finger_y : float
         Centre of the finger's disk on the belt, from where it started [m]; the belt carries
         everything on it in -y, so on the belt the finger moves at +v_y.
@@ -164,12 +176,16 @@ class Rig:
         Whether the finger could not follow its velocity in the last step.
     """
 
-    def __init__(self, config: RigConfig) -> None:
+    def __init__(self, config: RigConfig, faults: Faults = NO_FAULTS) -> None:
         self.config = config
+        self.faults = faults
         self._path = config.slider.outline.path(config.radius)
-        self._friction_cone = friction_cone(config.mu_c)
         # The knuckle points across the belt, the pole along it.
         self._home = config.finger.forward(math.pi - config.finger.mount_angle, -math.pi / 2.0)
+        self._commands = DelayLine()
+        self.time = 0.0
+        self.v_x = 0.0
+        self.v_y = 0.0
         self.finger_x = 0.0
         self.finger_y = 0.0
         self.touching = True
@@ -198,6 +214,11 @@ class Rig:
         piece = piece_at(self.sigma, self._path)
         _, _, d, l = contact(self.sigma, piece, self._path, self.config.radius)
         return d, l
+
+    @property
+    def _friction_cone(self) -> tuple[float, float]:
+        """The friction cone at the contact, as `friction_cone` gives it."""
+        return friction_cone(self.faults.friction.mu_c(self.config.mu_c, self.sigma))
 
     @property
     def gap(self) -> float:
@@ -267,19 +288,56 @@ class Rig:
         Parameters
         ----------
         v_x : float
-            Velocity of the finger across the belt [m/s].
+            Velocity of the finger across the belt [m/s], as commanded.
         duration : float
             How long [s].
         belt_running : bool, optional
             Whether the belt moves.
         """
+        self.at_workspace_limit = False
+        if duration == 0.0:
+            return
+        servo = self.faults.servo
+        for arrived, left in self._commands.arriving(v_x, self.time, duration, servo.delay):
+            command = quantised(arrived, servo.velocity_quantum)
+            while True:
+                longest = min(left, self._straight_time(command, belt_running))
+                elapsed, mean, after = lagged(self.v_x, command, servo.time_constant, longest)
+                self.v_x = after
+                self._move_within_limits(mean, elapsed, belt_running)
+                if elapsed >= left:
+                    break
+                left -= elapsed
+        belt_speed = self.faults.belt.speed(self.config.belt_speed, self.time)
+        self.v_y = belt_speed if belt_running else 0.0
+
+    def _straight_time(self, command: float, belt_running: bool) -> float:
+        """Tell for how long belt and friction let a straight push stand for the motion [s]."""
+        fastest = math.hypot(max(abs(self.v_x), abs(command)), self.config.belt_speed)
+        straight = self.faults.belt.straight(self.config.belt_speed) if belt_running else math.inf
+        return min(straight, self.faults.friction.even(fastest))
+
+    def _move_within_limits(self, v_x: float, duration: float, belt_running: bool) -> None:
+        """Move straight on, and stop the finger where it can go no further."""
+        x = self._home.x + self.finger_x
+        inside = self.faults.workspace.time_inside(x, v_x, duration)
         try:
-            self.config.finger.inverse(self._home.x + self.finger_x + v_x * duration, self._home.y)
-            self.at_workspace_limit = False
+            self.config.finger.inverse(x + v_x * inside, self._home.y)
         except OutOfReachError:
+            inside = 0.0
+        if inside > 0.0:
+            self._move(v_x, inside, belt_running)
+        if inside < duration:
             self.at_workspace_limit = True
-            v_x = 0.0
-        v_y = self.config.belt_speed if belt_running else 0.0
+            self.v_x = 0.0
+            self._move(0.0, duration - inside, belt_running)
+
+    def _move(self, v_x: float, duration: float, belt_running: bool) -> None:
+        """Move finger and belt straight on, and what they push."""
+        v_y = 0.0
+        if belt_running:
+            v_y = self.faults.belt.mean_speed(self.config.belt_speed, self.time, duration)
+        self.time += duration
         if v_x == v_y == 0.0:
             self.mode = FREE
             return

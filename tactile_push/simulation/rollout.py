@@ -14,7 +14,7 @@
 """Mechanics and control law alone: one push after the other."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -33,9 +33,12 @@ from tactile_push.mechanics import (
 from tactile_push.mechanics.compiled import Array, compiled, equation
 from tactile_push.mechanics.contact import TOUCH
 from tactile_push.simulation.rig import RigConfig
+from tactile_push.simulation.servo import Servo, lagged, quantised
 
 THETA, PHI, D, X, Y, MODE = range(6)
 QUANTITIES = 6
+TIME_CONSTANT, DELAY, QUANTUM = range(3)
+WHOLE = 1e-9  # rounding of a delay that is a whole number of periods
 
 _push_angle = equation(push_angle)
 _finger_velocity = equation(finger_velocity)
@@ -90,6 +93,55 @@ def _record(
     row[MODE] = mode
 
 
+@equation
+def _left_behind(
+    angle: float, sigma: float, v_x: float, v_y: float, rest: float, path: Array, r: float
+) -> tuple[float, bool]:
+    """Move on a finger that pushes no longer: where it is nearest, and whether it is gone."""
+    _, _, d, l = contact(sigma, piece_at(sigma, path), path, r)
+    x, y = reach(angle + tangent_angle(sigma, path), d, l, r)
+    sigma, gap = clearance(-x, -y, angle, v_x * rest, v_y * rest, path, r)
+    return sigma, gap > TOUCH
+
+
+@equation
+def _follow(
+    angle: float,
+    sigma: float,
+    commands: Array,
+    k: int,
+    velocity: float,
+    servo: Array,
+    v_y: float,
+    period: float,
+    path: Array,
+    c: float,
+    points: Array | None,
+    cos_alpha: float,
+    sin_alpha: float,
+    r: float,
+) -> tuple[float, float, bool, int, float, float]:
+    """Push for a period with a finger that follows the commands by its servo.
+
+    The commands of this and of earlier periods are kept in a ring. What arrives is at first the
+    older, then the newer of the two that the delay lets through in this period.
+    """
+    size, way, gone, mode = len(commands), 0.0, False, FREE
+    late = max(0.0, servo[DELAY] - (size - 2) * period)  # of the newer one, in the period
+    for age, duration in ((size - 1, late), (size - 2, period - late)):
+        command = quantised(commands[(k - age) % size], servo[QUANTUM])
+        while duration > 0.0 and not gone:
+            elapsed, mean, velocity = lagged(velocity, command, servo[TIME_CONSTANT], duration)
+            angle, sigma, pushed, mode = push(
+                angle, sigma, mean, v_y, elapsed, path, c, points, cos_alpha, sin_alpha, r
+            )
+            if pushed < elapsed:
+                sigma, gone = _left_behind(angle, sigma, mean, v_y, elapsed - pushed, path, r)
+            way += mean * elapsed
+            duration -= elapsed
+    return angle, sigma, gone, mode, velocity, way
+
+
 @compiled
 def run(
     theta: float,
@@ -110,6 +162,7 @@ def run(
     cos_alpha: float,
     sin_alpha: float,
     r: float,
+    servo: Array | None,
     band: float,
     history: Array,
 ) -> tuple[int, int]:
@@ -133,6 +186,9 @@ def run(
         Speed of the belt, v_y [m/s].
     path, c, points, cos_alpha, sin_alpha, r
         As `push` takes them.
+    servo : ndarray, shape (3,), or None
+        Time constant [s], delay [s] and velocity quantum [m/s] of a finger that does not follow
+        its command perfectly.
     band : float
         How near theta must stay to its desired value to have settled [rad].
     history : ndarray, shape (steps + 1, 6) or (1, 6)
@@ -148,6 +204,9 @@ def run(
     angle = theta - tangent_angle(sigma, path)
     x_f, y_f, mode, before, settled = 0.0, 0.0, FREE, theta, 0
     all_steps = len(history) > steps
+    if servo is not None:
+        velocity = 0.0
+        commands = np.zeros(math.floor(servo[DELAY] / period + WHOLE) + 2)  # under way
     for k in range(steps + 1):
         row = k if all_steps else 0
         theta = angle + tangent_angle(sigma, path)
@@ -163,28 +222,35 @@ def run(
             _record(history[row], theta, phi, sigma, x_f, y_f, mode, path, r)
         if k == steps:
             break
-        v_x = _finger_velocity(phi, belt_speed)
-        angle_after, sigma_after, elapsed, mode = push(
-            angle, sigma, v_x, belt_speed, period, path, c, points, cos_alpha, sin_alpha, r
-        )
-        if elapsed < period:  # what the finger pushes no longer may also be left behind
-            _, _, d, l = contact(sigma_after, piece_at(sigma_after, path), path, r)
-            x, y = reach(angle_after + tangent_angle(sigma_after, path), d, l, r)
-            rest = period - elapsed
-            sigma_after, gap = clearance(
-                -x, -y, angle_after, v_x * rest, belt_speed * rest, path, r
+        sigma_before, v_x = sigma, _finger_velocity(phi, belt_speed)
+        gone = False
+        if servo is None:
+            way = v_x * period
+            angle, sigma, elapsed, mode = push(
+                angle, sigma, v_x, belt_speed, period, path, c, points, cos_alpha, sin_alpha, r
             )
-            if gap > TOUCH:
-                _record(history[row], theta, phi, sigma, x_f, y_f, mode, path, r)
-                return k, -1
+            if elapsed < period:
+                sigma, gone = _left_behind(angle, sigma, v_x, belt_speed, period - elapsed, path, r)
+        else:
+            commands[k % len(commands)] = v_x
+            angle, sigma, gone, mode, velocity, way = _follow(
+                *(angle, sigma, commands, k, velocity, servo),
+                *(belt_speed, period, path, c, points, cos_alpha, sin_alpha, r),
+            )
+        if gone:
+            _record(history[row], theta, phi, sigma_before, x_f, y_f, mode, path, r)
+            return k, -1
         history[row, MODE] = mode
-        angle, sigma = angle_after, sigma_after
-        x_f, y_f = x_f + v_x * period, y_f + belt_speed * period
+        x_f, y_f = x_f + way, y_f + belt_speed * period
     return steps, settled if settled <= steps else -1
 
 
 def rollout(
-    config: RigConfig, law: PushLaw | npt.ArrayLike, steps: int, period: float = 0.1
+    config: RigConfig,
+    law: PushLaw | npt.ArrayLike,
+    steps: int,
+    period: float = 0.1,
+    servo: Servo | None = None,
 ) -> Rollout:
     """Push an object with the control law or, open loop, with given push angles.
 
@@ -199,6 +265,8 @@ def rollout(
         Number of control periods.
     period : float, optional
         Control period [s].
+    servo : Servo, optional
+        How the finger follows its command, at rest in the beginning; perfectly by default.
 
     Returns
     -------
@@ -243,6 +311,7 @@ def rollout(
         config.slider.points,
         *friction_cone(config.mu_c),
         config.radius,
+        None if servo is None else np.array(astuple(servo)),
         math.inf,
         history,
     )

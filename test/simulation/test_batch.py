@@ -24,7 +24,7 @@ from hypothesis import strategies as st
 
 from tactile_push.control import AHEAD, PushLaw, settle_step
 from tactile_push.mechanics import FREE, MODES, STICK, Outline, Slider, Support
-from tactile_push.simulation import RigConfig, paper_block, paper_disk, rollout, rollouts
+from tactile_push.simulation import RigConfig, Servo, paper_block, paper_disk, rollout, rollouts
 
 checked = settings(derandomize=True, deadline=None, max_examples=30)
 THETA_D = math.radians(-10.0)
@@ -452,3 +452,24 @@ def test_ctrl_c_ends_a_long_batch():
 def test_a_first_push_beyond_the_bounds_is_refused(bounds):
     with pytest.raises(ValueError, match='phi: expected phi_min to phi_max'):
         rollouts(paper_block().slider, theta=0.1, steps=2, **bounds)
+
+
+def test_servos_of_a_batch_are_those_of_its_rollouts():
+    servos = [Servo(), Servo(0.1), Servo(0.05, 0.23), Servo(delay=0.3), Servo(0.1, 0.1, 1e-4)]
+    many = rollouts(BLOCK, **FIG_8, mu_c=0.3, servo=servos, history=True)
+    for i, servo in enumerate(servos):
+        law = PushLaw(0.05, 5.0, THETA_D)
+        one = rollout(paper_block(mu_c=0.3), law, 600, servo=servo)
+        for name in QUANTITIES:
+            assert np.array_equal(getattr(many, name)[i], getattr(one, name)), name
+        assert many.settle_step[i] == settle_step(one.theta, THETA_D, math.radians(3.0))
+
+
+def test_one_servo_is_for_all_and_several_are_broadcast():
+    gains = [0.02, 0.05]
+    one = rollouts(BLOCK, **FIG_8 | {'kp': gains}, servo=Servo(0.1))
+    two = rollouts(BLOCK, **FIG_8 | {'kp': gains}, servo=[Servo(0.1), Servo(0.1)])
+    assert np.array_equal(one.theta, two.theta)
+    assert one.theta[0] != one.theta[1]
+    with pytest.raises(ValueError, match=r'servo.time_constant \(3,\)'):
+        rollouts(BLOCK, **FIG_8 | {'kp': gains}, servo=[Servo()] * 3)

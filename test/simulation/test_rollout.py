@@ -20,7 +20,16 @@ from hypothesis import strategies as st
 
 from tactile_push.control import AHEAD, PushLaw, settle_step
 from tactile_push.mechanics import FREE, MODES, SLIP_LEFT, SLIP_RIGHT, STICK, Outline, Slider
-from tactile_push.simulation import Rig, RigConfig, paper_block, paper_disk, rollout
+from tactile_push.simulation import (
+    Faults,
+    Rig,
+    RigConfig,
+    Servo,
+    experiment,
+    paper_block,
+    paper_disk,
+    rollout,
+)
 from tactile_push.tactile import PlanarFinger
 
 checked = settings(derandomize=True, deadline=None, max_examples=100)
@@ -431,3 +440,47 @@ def test_argument_out_of_its_range_is_refused_by_name_and_value(name, arguments,
     with pytest.raises(ValueError, match=f'^{name}: expected .*{value}'):
         # phi from 40 degrees on goes towards the edge.
         rollout(paper_block(math.radians(40.0)), *arguments)
+
+
+@pytest.mark.parametrize('mu_c', [0.0, 0.3, math.inf])
+@pytest.mark.parametrize(
+    'servo',
+    [
+        Servo(time_constant=0.1),
+        Servo(delay=0.3),
+        Servo(delay=0.04),
+        Servo(0.1, 0.1),
+        Servo(0.05, 0.23, 1e-4),
+    ],
+    ids=str,
+)
+def test_servo_of_the_rollout_is_that_of_the_rig(servo, mu_c):
+    config = paper_block(mu_c=mu_c)
+    here = rollout(config, papers_law(), 300, servo=servo)
+    there = experiment(config, papers_law(), 300, faults=Faults(servo))
+    assert (here.end, there.end) == ('done', 'done')
+    for name in ('theta', 'phi', 'd', 'x', 'y'):
+        assert getattr(here, name) == pytest.approx(getattr(there, name), abs=1e-6), name
+
+
+def test_perfect_servo_changes_nothing():
+    without, perfect = (rollout(paper_block(), papers_law(), 200, servo=s) for s in (None, Servo()))
+    for name in QUANTITIES:
+        assert getattr(perfect, name) == pytest.approx(getattr(without, name), abs=1e-12), name
+
+
+@pytest.mark.parametrize('periods', [1, 3, 7])
+def test_delay_of_whole_periods_drives_each_push_by_an_older_command(periods):
+    late = rollout(paper_block(), papers_law(), 100, servo=Servo(delay=periods * 0.1))
+    pushes = np.concatenate([np.full(periods, AHEAD), late.phi[: 100 - periods]])
+    replayed = rollout(paper_block(), pushes, 100)
+    assert replayed.theta == pytest.approx(late.theta, abs=1e-9)
+    assert replayed.x == pytest.approx(late.x, abs=1e-9)
+
+
+def test_object_that_a_lagging_finger_loses_ends_the_rollout():
+    slider = Slider(Outline.rectangle(0.004, 0.0475), 0.0187)
+    config = RigConfig(slider, 0.0, math.radians(-30.0), 0.0)
+    lost = rollout(config, AHEAD, 200, servo=Servo(time_constant=0.1))
+    assert lost.end.startswith('the finger lost the object')
+    assert len(lost.theta) == len(rollout(config, AHEAD, 200).theta)

@@ -1,0 +1,212 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""A finger that does not follow its command perfectly (Section V.D): delay, steps, lag, limits."""
+
+import math
+from collections import deque
+from dataclasses import dataclass
+
+import numpy as np
+
+from tactile_push.mechanics.compiled import equation
+
+FLAT = 1e-6  # how far a path may bend away from the straight pushes that stand for it [m]
+FOLLOWED = 1e-9  # a velocity so near to its command has reached it [m/s]
+
+
+@dataclass(frozen=True)
+class Servo:
+    """How the finger follows its velocity command; by default perfectly.
+
+    What arrives after the delay is rounded to whole quanta and then followed by a lag of first
+    order.
+
+    Parameters
+    ----------
+    time_constant : float, optional
+        Of the lag [s]: after so long a velocity has made 63 % of a step of its command.
+    delay : float, optional
+        Between a command and its first effect [s].
+    velocity_quantum : float, optional
+        Velocities are whole multiples of it [m/s]; 0 for all velocities.
+
+    Raises
+    ------
+    ValueError
+        If a number is negative or not finite.
+    """
+
+    time_constant: float = 0.0
+    delay: float = 0.0
+    velocity_quantum: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ('time_constant', 'delay', 'velocity_quantum'):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0.0):
+                raise ValueError(f'{name}: expected a finite number of 0 or more, got {value}')
+
+
+@dataclass(frozen=True)
+class Workspace:
+    """Where the centre of the finger's disk may be across the belt; by default anywhere.
+
+    Parameters
+    ----------
+    lower, upper : float, optional
+        Bounds on x in `finger_base` [m].
+
+    Raises
+    ------
+    ValueError
+        If there is no place between the bounds.
+    """
+
+    lower: float = -math.inf
+    upper: float = math.inf
+
+    def __post_init__(self) -> None:
+        if not self.lower < self.upper:
+            raise ValueError(
+                f'workspace: expected a lower bound below the upper one, got {self.lower} and '
+                f'{self.upper} m'
+            )
+
+    def time_inside(self, x: float, v_x: float, duration: float) -> float:
+        """Tell how long a finger stays inside.
+
+        Parameters
+        ----------
+        x : float
+            Where it is [m]; beyond a bound it may still go back.
+        v_x : float
+            Its velocity [m/s].
+        duration : float
+            How long it moves [s].
+
+        Returns
+        -------
+        float
+            Time until it is at a bound that it moves to, at most `duration` [s].
+        """
+        if v_x > 0.0 and x + v_x * duration > self.upper:
+            return max(0.0, self.upper - x) / v_x
+        if v_x < 0.0 and x + v_x * duration < self.lower:
+            return max(0.0, x - self.lower) / -v_x
+        return duration
+
+
+class DelayLine:
+    """Commands on their way to the finger. It may be made longer or shorter at any time."""
+
+    def __init__(self) -> None:
+        self._commands = deque([(-math.inf, 0.0)])  # since when, and the velocity
+
+    def arriving(
+        self, command: float, start: float, duration: float, delay: float
+    ) -> list[tuple[float, float]]:
+        """Give a command and find what arrives meanwhile.
+
+        Parameters
+        ----------
+        command : float
+            Velocity commanded from `start` on [m/s].
+        start : float
+            Time [s].
+        duration : float
+            How long the command stays the same [s].
+        delay : float
+            How long a command is on its way [s].
+
+        Returns
+        -------
+        list of tuple of float
+            What arrives one after the other: velocity [m/s], and for how long [s].
+        """
+        commands = self._commands
+        if command != commands[-1][1]:
+            commands.append((start, command))
+        while len(commands) > 1 and commands[1][0] + delay <= start:
+            commands.popleft()
+        arrived = []
+        left = duration
+        for (_, velocity), (since, _) in zip(commands, list(commands)[1:], strict=False):
+            length = since + delay - (start + duration - left)
+            if length >= left:
+                arrived.append((velocity, left))
+                return arrived
+            arrived.append((velocity, length))
+            left -= length
+        arrived.append((commands[-1][1], left))
+        return arrived
+
+
+@equation
+def quantised(velocity: float, quantum: float) -> float:
+    """Round a velocity to whole quanta.
+
+    Parameters
+    ----------
+    velocity : float
+        Velocity [m/s].
+    quantum : float
+        Smallest difference of velocities [m/s]; 0 for none.
+
+    Returns
+    -------
+    float
+        The nearest multiple [m/s].
+    """
+    return quantum * np.rint(velocity / quantum) if quantum > 0.0 else velocity
+
+
+@equation
+def lagged(
+    velocity: float, command: float, time_constant: float, duration: float
+) -> tuple[float, float, float]:
+    """Follow a command as a lag of first order does, for as long as the way is nearly straight.
+
+    time_constant v' = command - v, hence an exponential, whose integral is the way: exact over any
+    time. The time is cut where the way that goes with it on the moving belt would bend by `FLAT`.
+
+    Parameters
+    ----------
+    velocity : float
+        Velocity at the start [m/s].
+    command : float
+        What it tends to [m/s].
+    time_constant : float
+        Of the lag [s]; 0 for none.
+    duration : float
+        For how long at the most [s].
+
+    Returns
+    -------
+    elapsed : float
+        For how long [s].
+    mean : float
+        Mean velocity in that time [m/s].
+    velocity : float
+        Velocity at its end [m/s].
+    """
+    behind = velocity - command
+    if time_constant == 0.0 or abs(behind) <= FOLLOWED:
+        return duration, command, command
+    elapsed = duration
+    if abs(behind) * time_constant > FLAT:
+        # The sagitta of an arc whose slope changes by behind elapsed / time_constant.
+        elapsed = min(duration, math.sqrt(8.0 * FLAT * time_constant / abs(behind)))
+    gone = -math.expm1(-elapsed / time_constant)
+    mean = command + behind * gone * time_constant / elapsed
+    return elapsed, mean, command + behind * (1.0 - gone)

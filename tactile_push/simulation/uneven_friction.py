@@ -1,0 +1,82 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""A pushed edge that is not equally rough everywhere."""
+
+import math
+from dataclasses import dataclass
+
+PIECES = 64  # of a ripple, in which the friction counts as even
+
+
+@dataclass(frozen=True)
+class UnevenFriction:
+    """How mu_c varies around the object; by default not at all.
+
+    Without friction there is nothing to vary, and infinite friction stays infinite.
+
+    Parameters
+    ----------
+    ripple : float, optional
+        Amplitude of the sine by which mu_c goes up and down, relative to mu_c; below 1.
+    length : float, optional
+        Wavelength along the path of the finger's disk around the object [m].
+
+    Raises
+    ------
+    ValueError
+        If a number is out of its range.
+    """
+
+    ripple: float = 0.0
+    length: float = 0.005
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.ripple < 1.0:
+            raise ValueError(f'ripple: expected a number from 0 to less than 1, got {self.ripple}')
+        if not (math.isfinite(self.length) and self.length > 0.0):
+            raise ValueError(f'length: expected a positive length [m], got {self.length}')
+
+    def mu_c(self, mean: float, sigma: float) -> float:
+        """Give the friction at a contact.
+
+        Parameters
+        ----------
+        mean : float
+            The mean coefficient of friction, 0 to infinity.
+        sigma : float
+            Position along the path of the finger's disk around the object [m].
+
+        Returns
+        -------
+        float
+            mu_c there.
+        """
+        return mean * (1.0 + self.ripple * math.sin(2.0 * math.pi * sigma / self.length))
+
+    def even(self, speed: float) -> float:
+        """Tell for how long the friction is nearly the same.
+
+        Parameters
+        ----------
+        speed : float
+            Of the finger on the belt [m/s].
+
+        Returns
+        -------
+        float
+            Time in which the finger moves on by a small part of the wavelength [s].
+        """
+        if self.ripple == 0.0 or speed == 0.0:
+            return math.inf
+        return self.length / PIECES / speed
