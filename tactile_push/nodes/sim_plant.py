@@ -16,29 +16,34 @@
 import math
 import sys
 import time
+from collections import Counter
+from types import SimpleNamespace
 
 from geometry_msgs.msg import PoseStamped, TwistStamped
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock as NodeClock
 from rclpy.clock_type import ClockType
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
-from tactile_push.mechanics import Outline, Slider, Support
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.markers import rig_markers
-from tactile_push.nodes.parameters import ConfigurationError, Parameter, declare
+from tactile_push.nodes.parameters import ConfigurationError, declare
 from tactile_push.nodes.process import run
-from tactile_push.simulation import Rig, RigConfig, serve
+from tactile_push.nodes.sim_plant_parameters import PARAMETERS, faults, faults_on, rig_config
+from tactile_push.simulation import Readout, Rig, serve
 from tactile_push.simulation.pace import Pace
-from tactile_push.tactile import PlanarFinger, Sentence, encode, quaternion_of_yaw
+from tactile_push.tactile import Reading, Sentence, encode, quaternion_of_yaw
 
 FRESHEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 MARKER_RATE = 10.0  # [Hz]
 REPEAT_PERIOD = 0.01  # of time and reading while the time stands still [s]
+LOOK_PERIOD = 1.0  # at who commands [s]
 LONGEST_STEP = 0.1  # what a delayed timer may add to the real-time rig at once [s]
 
 
@@ -46,151 +51,22 @@ class SimPlant(Node):
     """Node: belt, object, finger and sensor."""
 
     NAME = 'sim_plant'
-    PARAMETERS = (
-        Parameter(
-            'device',
-            'socket://127.0.0.1:54320',
-            '',
-            'where the sensor_driver will find the sensor: socket://host:port to listen on, or '
-            'an absolute path for a pseudo terminal',
-            read_only=True,
-        ),
-        Parameter(
-            'object', 'block', '', 'what is pushed', choices=('block', 'disk'), read_only=True
-        ),
-        Parameter('edge_length', 0.05, 'm', 'pushed edge of the block', 1e-3, 1.0, read_only=True),
-        Parameter(
-            'edge_to_cm',
-            0.02375,
-            'm',
-            'distance l from the pushed edge of the block to its centre of mass, half its depth',
-            1e-3,
-            1.0,
-            read_only=True,
-        ),
-        Parameter('disk_radius', 0.0285, 'm', 'radius of the disk', 1e-3, 1.0, read_only=True),
-        Parameter(
-            'c',
-            0.0,
-            'm',
-            'm_max / f_max of the support of the object; 0 for a uniform support',
-            0.0,
-            1.0,
-            read_only=True,
-        ),
-        Parameter(
-            'mu_c',
-            math.inf,
-            '',
-            'friction between finger and object, .inf too',
-            0.0,
-            read_only=True,
-        ),
-        Parameter(
-            'theta_initial',
-            0.3490658503988659,
-            'rad',
-            'angle of the edge at the start',
-            -1.5,
-            1.5,
-            read_only=True,
-        ),
-        Parameter(
-            'd_initial',
-            -0.006,
-            'm',
-            'contact along the edge of the block at the start',
-            -0.5,
-            0.5,
-            read_only=True,
-        ),
-        Parameter('belt_speed', 0.005, 'm/s', 'speed of the belt', 1e-5, 1.0, read_only=True),
-        Parameter(
-            'finger_radius',
-            0.0135,
-            'm',
-            "effective radius of the finger's disk",
-            1e-4,
-            1.0,
-            read_only=True,
-        ),
-        Parameter(
-            'proximal_length',
-            0.06,
-            'm',
-            'distance between the moving joints of the finger',
-            1e-3,
-            1.0,
-            read_only=True,
-        ),
-        Parameter(
-            'distal_length',
-            0.08,
-            'm',
-            'distance from the last joint to the centre of the disk',
-            1e-3,
-            1.0,
-            read_only=True,
-        ),
-        Parameter(
-            'mount_angle',
-            1.5707963267948966,
-            'rad',
-            'angle of the finger at joint angles zero',
-            -6.3,
-            6.3,
-            read_only=True,
-        ),
-        Parameter('sensor_rate', 50.0, 'Hz', 'readings a second', 1.0, 1000.0, read_only=True),
-        Parameter(
-            'command_timeout',
-            0.5,
-            's',
-            'without a command for so long the finger stops',
-            0.01,
-            10.0,
-            read_only=True,
-        ),
-        Parameter(
-            'publish_clock',
-            False,
-            '',
-            'own the time: publish /clock and let it wait for contacts and commands',
-            read_only=True,
-        ),
-        Parameter(
-            'real_time_factor',
-            1.0,
-            's/s',
-            'how fast the time passes at the most; other than 1 only with publish_clock',
-            0.01,
-            100.0,
-            read_only=True,
-        ),
-        Parameter(
-            'control_rate',
-            10.0,
-            'Hz',
-            'commands a second that the published time waits for',
-            0.1,
-            200.0,
-            read_only=True,
-        ),
-    )
+    PARAMETERS = PARAMETERS
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
-        self._settings = p = declare(self, self.PARAMETERS)
+        self._settings = p = declare(self, self.PARAMETERS, self._take_parameters)
         if p.real_time_factor != 1.0 and not p.publish_clock:
             raise ConfigurationError(
                 'parameter real_time_factor: expected 1.0 unless publish_clock is true, '
                 f'got {p.real_time_factor}'
             )
         try:
-            config = self._rig_config()
+            config, beginning = rig_config(p), faults(p)
         except ValueError as error:
             raise ConfigurationError(str(error)) from None
-        self._rig = Rig(config)
+        self._rig = Rig(config, beginning)
+        self._readout = Readout(beginning.sensor, p.seed)
         Rig(config).step(0.0, 1.0)  # compiles the mechanics before time begins
         try:
             self._device = serve(p.device)
@@ -202,41 +78,37 @@ class SimPlant(Node):
         self._pace = Pace(p.real_time_factor, 1.0 / p.control_rate, p.command_timeout)
         self._steps = 0
         self._sequence = 0
+        self._counts: Counter[str] = Counter({'readings sent': 0, 'commands': 0})
+        self._awaited: Reading | None = None  # the last reading, if a contact has to follow
         self._time = 0.0
         self._last_wall = time.monotonic()
         self._last_clock = self._last_wall
         self._v_x = 0.0
         self._last_command: float | None = None
+        self._commanders = 0
         self._create_topics()
-        self._diagnostics = Diagnostics(self, self._health)
-        self.create_timer(
-            self._period / p.real_time_factor,
-            self._on_timer,
-            clock=NodeClock(clock_type=ClockType.STEADY_TIME),
-        )
+        self.add_on_set_parameters_callback(self._check_parameters)
+        self._diagnostics = Diagnostics(self, self._health, lambda: self._counts)
+        steady_clock = NodeClock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(self._period / p.real_time_factor, self._on_timer, clock=steady_clock)
+        self.create_timer(LOOK_PERIOD, self._count_commanders, clock=steady_clock)
 
     def destroy_node(self) -> None:
         """Stop serving the device and end."""
         self._device.close()
         super().destroy_node()
 
-    def _rig_config(self) -> RigConfig:
-        p = self._settings
-        if p.object == 'block':
-            outline = Outline.rectangle(p.edge_length, 2.0 * p.edge_to_cm)
-            d = p.d_initial
-        else:
-            outline = Outline.circle(p.disk_radius)
-            d = 0.0
-        return RigConfig(
-            Slider(outline, p.c or Support.uniform(outline).c),
-            p.mu_c,
-            p.theta_initial,
-            d,
-            p.belt_speed,
-            p.finger_radius,
-            PlanarFinger(p.proximal_length, p.distal_length, p.mount_angle),
-        )
+    def _check_parameters(self, proposed: list[Parameter]) -> SetParametersResult:
+        changes = {parameter.name: parameter.value for parameter in proposed}
+        try:
+            faults(SimpleNamespace(**(vars(self._settings) | changes)))
+        except ValueError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+    def _take_parameters(self) -> None:
+        self._rig.faults = faults(self._settings)
+        self._readout.sensor = self._rig.faults.sensor
 
     def _create_topics(self) -> None:
         self._joint_states = self.create_publisher(JointState, 'joint_states', 10)
@@ -249,39 +121,56 @@ class SimPlant(Node):
             self.create_subscription(PoseStamped, 'contact', self._on_contact, FRESHEST)
         self.create_subscription(TwistStamped, 'finger/cmd_vel', self._on_command, 10)
 
+    def _count_commanders(self) -> None:
+        self._commanders = self.count_publishers('finger/cmd_vel')
+
     def _on_command(self, message: TwistStamped) -> None:
+        self._counts['commands'] += 1
         v_x = message.twist.linear.x
         if not math.isfinite(v_x):
-            self.get_logger().error('finger/cmd_vel: not a finite velocity, ignored', once=True)
-            return
-        self._v_x = v_x
-        self._last_command = self._time
-        stamp = Time.from_msg(message.header.stamp).nanoseconds * 1e-9
-        self._pace.command(stamp, self._time)
-        self._on_timer()
+            self._counts['commands not finite'] += 1
+            self._v_x = 0.0  # whoever sends this is not to be trusted with a moving finger
+        else:
+            fastest = self._settings.max_speed
+            self._v_x = min(max(v_x, -fastest), fastest)
+            self._counts['commands too fast'] += self._v_x != v_x
+            self._last_command = self._time
+            stamp = Time.from_msg(message.header.stamp).nanoseconds * 1e-9
+            self._pace.command(stamp, self._time)
+        if self._clock_publisher is None:
+            self._step(self._real_time())
+        else:
+            self._on_timer()
 
     def _on_contact(self, message: PoseStamped) -> None:
         self._pace.contact(Time.from_msg(message.header.stamp).nanoseconds * 1e-9)
         self._on_timer()
 
     def _on_timer(self) -> None:
-        wall = time.monotonic()
         if self._clock_publisher is None:
-            step = min(wall - self._last_wall, LONGEST_STEP)
-            self._last_wall = wall
-            self._step(step)
+            self._step(self._real_time())
+            self._read()
             return
+        wall = time.monotonic()
         was_commanded = self._pace.commanded
         if self._pace.may_reach(self._time + self._period, self._period, wall):
             if was_commanded and not self._pace.commanded:
                 self._v_x = 0.0  # the command is overdue
             self._last_clock = wall
             self._step(self._period)
+            self._read()
         elif wall - self._last_clock > REPEAT_PERIOD:
             # Time may stand still because a message was lost or a reading got an old stamp.
             self._last_clock = wall
             self._publish_clock()
-            self._send_reading()
+            if self._awaited is not None and self._pace.contact_overdue:
+                self._send(self._awaited)
+
+    def _real_time(self) -> float:
+        """Give the time since it was last asked for."""
+        wall = time.monotonic()
+        elapsed, self._last_wall = wall - self._last_wall, wall
+        return min(elapsed, LONGEST_STEP)
 
     def _step(self, step: float) -> None:
         """Move belt, object and finger, and tell of it."""
@@ -296,18 +185,28 @@ class SimPlant(Node):
         self._publish_clock()
         stamp = self._stamp()
         self._publish_joint_states(stamp)
-        self._send_reading()
         self._publish_truth(stamp)
         every = max(1, round(self._settings.sensor_rate / MARKER_RATE))
         if self._steps % every == 0 and self._markers.get_subscription_count():
             self._markers.publish(rig_markers(self._rig, stamp))
 
-    def _send_reading(self) -> None:
-        reading = self._rig.reading()
+    def _read(self) -> None:
+        """Read the sensor and send what comes out."""
+        self._awaited = None
+        for sample in self._readout.read(self._rig.reading(), self._time):
+            if sample.reading is None:
+                self._sequence += 1  # as of a sentence that never arrives
+                self._counts['readings lost'] += 1
+                continue
+            self._send(sample.reading)
+            if sample.likely:
+                self._awaited = sample.reading
+                self._pace.reading(self._time)
+
+    def _send(self, reading: Reading) -> None:
         self._device.send(encode(Sentence(self._sequence, reading)))
         self._sequence += 1
-        if reading.in_contact:
-            self._pace.reading(self._time)
+        self._counts['readings sent'] += 1
 
     def _stamp(self) -> Time:
         if self._clock_publisher is None:
@@ -338,8 +237,10 @@ class SimPlant(Node):
             'd': rig.d if rig.touching else math.nan,
             'phi': rig.phi,
             'mode': float(rig.mode),
-            'v_x': self._v_x,
+            'v_x': rig.v_x,
+            'v_x_commanded': self._v_x,
             'finger_x': rig.finger_x,
+            'belt_speed': rig.v_y,
             'belt_travel': rig.finger_y,
         }
         state = JointState(name=list(fields), position=list(fields.values()))
@@ -347,23 +248,36 @@ class SimPlant(Node):
         self._state.publish(state)
 
     def _health(self) -> Health:
-        rig = self._rig
+        rig, faulty = self._rig, ', '.join(faults_on(self._settings))
+        level, message = self._judgement()
+        if faulty:
+            level = max(level, WARN)
+            message = f'{message}, with {faulty}'
         values = {
             'time [s]': round(self._time, 3),
-            'readings sent': self._sequence,
             'contact': rig.mode_name if rig.touching else 'none',
             'finger x [m]': rig.finger_x,
-            'v_x [m/s]': self._v_x,
+            'v_x [m/s]': rig.v_x,
+            'v_x commanded [m/s]': self._v_x,
+            'belt speed [m/s]': rig.v_y,
+            'faults': faulty or 'none',
+            'publishers of finger/cmd_vel': self._commanders,
         }
+        return Health(level, message, values)
+
+    def _judgement(self) -> tuple[bytes, str]:
+        if self._last_command is not None:
+            if self._time - self._last_command >= self._settings.command_timeout:
+                return ERROR, 'no command, finger stopped'
+            if self._rig.at_workspace_limit:
+                return ERROR, 'finger at its workspace limit'
+        if self._commanders > 1:
+            return WARN, 'several publishers of finger/cmd_vel'
         if self._last_command is None:
-            return Health(OK, 'belt stands, waiting for the first command', values)
-        if self._time - self._last_command >= self._settings.command_timeout:
-            return Health(ERROR, 'no command, finger stopped', values)
-        if rig.at_workspace_limit:
-            return Health(ERROR, 'finger at its workspace limit', values)
-        if not rig.touching:
-            return Health(WARN, 'finger does not touch the object', values)
-        return Health(OK, 'pushing', values)
+            return OK, 'belt stands, waiting for the first command'
+        if not self._rig.touching:
+            return WARN, 'finger does not touch the object'
+        return OK, 'pushing'
 
 
 def main() -> int:

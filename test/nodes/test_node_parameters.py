@@ -152,7 +152,17 @@ def test_descriptor_tells_unit_range_and_whether_it_is_fixed(parameter):
 
 
 # Quantities without a unit: shares, counts and coefficients.
-WITHOUT_UNIT = {'mu_c', 'max_out_of_plane', 'max_ticks_lost', 'steps'}
+WITHOUT_UNIT = {
+    'belt_ripple',
+    'max_out_of_plane',
+    'max_ticks_lost',
+    'mu_c',
+    'mu_c_ripple',
+    'seed',
+    'sensor_dropout',
+    'sensor_outlier',
+    'steps',
+}
 
 
 @pytest.mark.parametrize('parameter', DECLARED)

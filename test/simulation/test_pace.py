@@ -299,3 +299,32 @@ def test_loop_on_a_loaded_machine_is_slower_and_the_same():
         loop.wall += 0.001
     assert due == pytest.approx(5.0)
     assert loop.wall - loop.start > 2.0 * 5.0 / 10.0
+
+
+def test_time_does_not_wait_for_the_contact_of_a_reading_it_was_not_told_of():
+    # As of a reading that is lost, tells of no contact or is an outlier.
+    loop = Loop(10.0)
+    loop.close()
+    for k in range(500):
+        if k % 10:
+            loop.close()
+        else:
+            loop.pace.command(loop.time, loop.time)
+        before = loop.wall
+        while not loop.poll():
+            loop.wall += 0.0005
+        assert loop.wall - before <= 1.01 * STEP / 10.0 + 0.001
+        assert not loop.pace.contact_overdue
+
+
+def test_pace_tells_whether_a_contact_is_overdue():
+    loop = Loop(1.0)
+    loop.close()
+    assert loop.poll()
+    loop.pace.reading(loop.time)
+    loop.wall += STEP
+    assert not loop.poll()
+    assert loop.pace.contact_overdue
+    loop.pace.contact(loop.time)
+    assert loop.poll()
+    assert not loop.pace.contact_overdue
