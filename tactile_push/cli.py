@@ -69,8 +69,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _add_simulate(commands)
     figures = commands.add_parser(
         'figures',
-        help='make figures 2, 3, 6, 7 and 8 of the paper',
-        description='Writes figures 2, 3, 6, 7 and 8 of the paper, made by the library, as PNG '
+        help='make figures 2, 3, 6, 7 and 8 of the paper and a map of the gains',
+        description='Writes figures 2, 3, 6, 7 and 8 of the paper, made by the library, and a map '
+        'of the gains that settle the block with a finger that lags behind its command, as PNG '
         'and SVG.',
     )
     figures.add_argument(
@@ -79,7 +80,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         type=Path,
         default=Path('out/figures'),
         metavar='DIR',
-        help='folder for figure_2.png, figure_2.svg and so on (default: out/figures)',
+        help='folder for figure_2.png, figure_2.svg, gains.png and so on (default: out/figures)',
     )
     figures.add_argument(
         '--json', action='store_true', help='print the files as one JSON object instead of lines'

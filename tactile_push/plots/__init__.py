@@ -14,12 +14,14 @@
 """Figures."""
 
 from tactile_push.plots.figures import save_figures
+from tactile_push.plots.gains import gain_figure
 from tactile_push.plots.history import plot_history
 from tactile_push.plots.limit_surfaces import limit_surface_figure, section_figure
 from tactile_push.plots.motion_cones import motion_cone_figure
 from tactile_push.plots.simulations import step_response_figure, trajectory_figure
 
 __all__ = [
+    'gain_figure',
     'limit_surface_figure',
     'motion_cone_figure',
     'plot_history',

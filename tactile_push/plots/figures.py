@@ -16,31 +16,33 @@
 from collections.abc import Callable
 from pathlib import Path
 
+from tactile_push.plots.gains import gain_figure
 from tactile_push.plots.limit_surfaces import limit_surface_figure, section_figure
 from tactile_push.plots.motion_cones import motion_cone_figure
 from tactile_push.plots.simulations import step_response_figure, trajectory_figure
 from tactile_push.plots.style import styled
 
 FIGURES = {
-    2: limit_surface_figure,
-    3: motion_cone_figure,
-    6: section_figure,
-    7: trajectory_figure,
-    8: step_response_figure,
+    'figure_2': limit_surface_figure,
+    'figure_3': motion_cone_figure,
+    'figure_6': section_figure,
+    'figure_7': trajectory_figure,
+    'figure_8': step_response_figure,
+    'gains': gain_figure,
 }
 
 
 @styled
 def save_figures(folder: Path, progress: Callable[[str], None] | None = None) -> list[Path]:
-    """Make figures 2, 3, 6, 7 and 8 of the paper and write them as PNG and SVG.
+    """Make figures 2, 3, 6, 7 and 8 of the paper and a map of the gains, as PNG and SVG.
 
     The same figures make the same files, to the byte for one version of matplotlib.
 
     Parameters
     ----------
     folder : path
-        Where to write figure_2.png, figure_2.svg, ...; made if it is not there. What is there
-        under these names is replaced.
+        Where to write figure_2.png, figure_2.svg, ..., gains.svg; made if it is not there. What
+        is there under these names is replaced.
     progress : callable, optional
         Told the name of each file when it is written.
 
@@ -56,10 +58,10 @@ def save_figures(folder: Path, progress: Callable[[str], None] | None = None) ->
     """
     folder.mkdir(parents=True, exist_ok=True)
     files = []
-    for number, draw in FIGURES.items():
+    for name, draw in FIGURES.items():
         figure = draw()
         for ending, metadata in (('png', None), ('svg', {'Date': None})):
-            file = folder / f'figure_{number}.{ending}'
+            file = folder / f'{name}.{ending}'
             figure.savefig(file, metadata=metadata)
             files.append(file)
             if progress is not None:

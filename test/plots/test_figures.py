@@ -27,6 +27,7 @@ from matplotlib.path import Path as Polygon
 from matplotlib.text import Text
 
 from tactile_push.plots import (
+    gain_figure,
     limit_surface_figure,
     motion_cone_figure,
     save_figures,
@@ -41,8 +42,10 @@ MAKERS = {
     6: section_figure,
     7: trajectory_figure,
     8: step_response_figure,
+    'gains': gain_figure,
 }
-NAMES = [f'figure_{number}.{ending}' for number in MAKERS for ending in ('png', 'svg')]
+FILES = {figure: f'figure_{figure}' if figure != 'gains' else 'gains' for figure in MAKERS}
+NAMES = [f'{FILES[figure]}.{ending}' for figure in MAKERS for ending in ('png', 'svg')]
 BLOCK = 5.0, 4.75  # cm
 L, R = 2.375, 1.35
 C_UNI_SQUARE = 5.0 * (math.sqrt(2.0) + math.asinh(1.0)) / 6.0  # mean distance in a square [cm]
@@ -87,7 +90,7 @@ def test_every_figure_is_written_twice_and_told(saved):
 
 @pytest.mark.parametrize('number', MAKERS)
 def test_png_has_300_dots_an_inch(saved, figures, number):
-    data = (saved[0] / f'figure_{number}.png').read_bytes()
+    data = (saved[0] / f'{FILES[number]}.png').read_bytes()
     assert data.startswith(b'\x89PNG\r\n\x1a\n')
     assert data.endswith(b'IEND\xaeB`\x82')
     inches = figures[number].get_size_inches()
@@ -96,13 +99,20 @@ def test_png_has_300_dots_an_inch(saved, figures, number):
 
 @pytest.mark.parametrize('number', MAKERS)
 def test_svg_is_xml_with_its_text_as_text_and_without_a_date(saved, number):
-    data = (saved[0] / f'figure_{number}.svg').read_text()
+    data = (saved[0] / f'{FILES[number]}.svg').read_text()
     root = ElementTree.fromstring(data)
     assert root.tag == f'{SVG}svg'
     assert 'dc:date' not in data
     assert 'DejaVuSans-' not in data  # the outline of a glyph
     texts = {''.join(text.itertext()).strip() for text in root.iter(f'{SVG}text')}
-    expected = {2: '1.87', 3: 'motion cone', 6: 'ellipsoid', 7: '15', 8: '400'}
+    expected = {
+        2: '1.87',
+        3: 'motion cone',
+        6: 'ellipsoid',
+        7: '15',
+        8: '400',
+        'gains': 'lag 0.1 s',
+    }
     assert expected[number] in texts
 
 
