@@ -20,7 +20,7 @@ import time
 from typing import Any
 
 import pytest
-from conftest import Observer, field
+from conftest import Observer, field, seconds
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from lifecycle_msgs.msg import Transition
@@ -244,10 +244,10 @@ def test_clock_that_jumps_stops_the_finger_at_once_until_it_is_resumed(world: Wo
     world.time = 50.0
     world.start()
     world.time += jump
+    jumped = world.time
     world.wait_for_state('stopped: clock jumped')
     # Not after the five seconds for which a timer of a clock that went back stands still.
-    assert field(world.states[-1], 'ticks_lost') == 0.0
-    assert abs(world.time - 50.0 - jump) < 30.0
+    assert jumped <= seconds(world.states[-1]) < jumped + 4.0
     world.check_that_it_rests()
     assert world.resume().success
     world.wait_for_state('pushing')
