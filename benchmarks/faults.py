@@ -1,0 +1,84 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Inject every fault into real nodes and print what was promised and what happened.
+
+    python benchmarks/faults.py [--only NAME …] [--json FILE] [--list]
+
+Starts the nodes as processes, in real time, in a ROS domain of their own on this machine, and
+measures the time from the fault to v_x = 0 at the simulated finger on the steady clock of this
+process. A row is BROKEN too if, whatever the fault, a command was not finite or a kick, an old or
+wrong reading was published, a log shows a traceback or a node did not end with status 0.
+"""
+
+import argparse
+import signal
+import sys
+from pathlib import Path
+from types import FrameType
+
+from fault_table import FAULTS
+from fault_table.table import Runner, show, write
+from rich.console import Console
+from rich.progress import Progress
+
+
+def main() -> int:
+    """Run the table."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument(
+        '--only', nargs='+', metavar='NAME', help='the rows whose name contains one of these words'
+    )
+    parser.add_argument('--json', type=Path, metavar='FILE', help='write the rows there too')
+    parser.add_argument('--list', action='store_true', help='print the rows and do nothing')
+    options = parser.parse_args()
+    chosen = [f for f in FAULTS if not options.only or any(o in f.name for o in options.only)]
+    for word in options.only or []:
+        if not any(word in fault.name for fault in FAULTS):
+            return _refuse(f'--only: expected part of a name that --list shows, got {word!r}')
+    if options.list:
+        for fault in chosen:
+            print(f'{fault.name}: {fault.promise}')
+        return 0
+    if options.json and not options.json.parent.is_dir():
+        return _refuse(f'--json: expected a file in a folder that is there, got {options.json}')
+    signal.signal(signal.SIGTERM, _terminate)
+    console = Console(stderr=True)
+    try:
+        with Runner() as runner, Progress(console=console) as progress:
+            task = progress.add_task('', total=len(chosen))
+            for fault in chosen:
+                progress.update(task, description=fault.name)
+                outcome = runner.run(fault)
+                progress.console.print(f'{outcome.verdict:6}  {fault.name}', highlight=False)
+                progress.advance(task)
+            runner.finish()
+    except KeyboardInterrupt:
+        return 130
+    show(runner.outcomes, Console())
+    if options.json:
+        write(runner.outcomes, options.json)
+    return 0 if all(outcome.held for outcome in runner.outcomes) else 1
+
+
+def _refuse(reason: str) -> int:
+    print(f'faults: {reason}', file=sys.stderr)
+    return 2
+
+
+def _terminate(signum: int, frame: FrameType | None) -> None:
+    raise KeyboardInterrupt
+
+
+if __name__ == '__main__':
+    sys.exit(main())
