@@ -29,7 +29,7 @@ from std_srvs.srv import Trigger
 from tactile_push.control import PUSHING, STATES, STOP_REASONS
 from tactile_push.processes import NodeProcesses
 
-from .messages import field
+from .messages import field, stamp_of
 from .observer import Heard, Observer
 from .promise import BrokenPromiseError, Setup
 from .proxy import DeviceProxy, free_port
@@ -38,7 +38,9 @@ from .relay import JointRelay
 CONFIG = Path(__file__).resolve().parents[2] / 'config' / 'block.yaml'
 CHAIN = ('sim_plant', 'sensor_driver', 'contact_geometry', 'push_controller')
 DESIRED = math.radians(10.0)  # to both sides in turn, so that the finger stays where it can
-MOVING = 3e-4  # [m/s]
+MOVING = 5e-5  # [m/s]
+MOST_THETA = math.radians(25.0)
+MOST_D = 0.01  # [m]
 HOLD = 0.3  # for so long a stopped finger has to stay stopped before it counts [s]
 
 
@@ -102,6 +104,8 @@ class Finger:
         if self.namespace:
             arguments += ('-r', f'__ns:=/{self.namespace}')
         if node == 'sim_plant':
+            # Balanced, so that an object that is not controlled for a while stays in reach.
+            parameters |= {'theta_initial': 0.0, 'd_initial': 0.0}
             parameters['device'] = f'socket://127.0.0.1:{self._port}'
             if self.relay is not None:
                 arguments += ('-r', f'joint_states:={self.relay.source}')
@@ -160,6 +164,11 @@ class Finger:
         """Wait until the finger moves, to the side to which it has to turn the object."""
         self.turn()
         self.wait_until_moving(patience)
+
+    def is_in_the_middle(self) -> bool:
+        """Tell whether the object lies so that the finger can go on for long."""
+        last = self.truth[-1].message
+        return abs(field(last, 'theta')) < MOST_THETA and abs(field(last, 'd')) < MOST_D
 
     def wait_until_moving(self, patience: float = 5.0) -> float:
         """Wait until the law acts and the finger moves, and give the moment [s]."""
@@ -273,6 +282,11 @@ class Finger:
         status = self.status(node)
         values = {v.key: v.value for v in status.values} if status is not None else {}
         return int(values.get(name, 0))
+
+    def publish(self, topic: str, message: Any) -> float:
+        """Publish what is no node's message on one of its topics, and give the moment [s]."""
+        self.foreign.add(stamp_of(message))
+        return self.observer.publish(self.name(topic), message)
 
     def after(self, heard: list[Heard[Any]], at: float) -> list[Any]:
         """Give what was heard after a moment."""

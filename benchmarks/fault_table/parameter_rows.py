@@ -85,7 +85,10 @@ def value_of(value: Any) -> ParameterValue:
 def wrong_values(parameter: Parameter) -> Iterator[Any]:
     """Give what a parameter must not become while its node runs."""
     kind = type(parameter.default)
-    yield from (v for v in (True, 1, 1.0, '1.0', ['1.0'], [1.0], None) if type(v) is not kind)
+    yield from (v for v in (True, 1, 1.0, '1.0', None) if type(v) is not kind)
+    yield [1.0]
+    if kind is not list:
+        yield ['1.0']
     if kind in (int, float):
         bounds = (parameter.lower - 1, parameter.upper + 1)
         yield from (kind(bound) for bound in bounds if math.isfinite(bound))

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 # How long the finger may go on after a fault [s].
 SILENT = 0.45  # contact_timeout, one control period, the way of the last reading and the command
-ONE_PERIOD = 0.15  # a control period and the way of the command
+ONE_PERIOD = 0.2  # a control period, the way of the command, a period of the plant
 COMMAND_LOST = 0.6  # command_timeout of the plant, a period of its sensor, the way of the state
 SIGNAL = 0.2
 

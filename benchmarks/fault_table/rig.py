@@ -112,6 +112,10 @@ class Rig:
         for finger in self.fingers:
             finger.activate()
 
+    def is_in_the_middle(self) -> bool:
+        """Tell whether all objects lie so that the fingers can go on for long."""
+        return all(finger.is_in_the_middle() for finger in self.fingers)
+
     def stopped(self, since: float, patience: float = 3.0, **how: Any) -> None:
         """Measure how long it takes until the finger stands, see `Finger.stopped`."""
         self.reaction = self.finger.stopped(since, patience, **how)

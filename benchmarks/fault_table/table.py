@@ -125,14 +125,11 @@ class Runner:
             self.outcomes[-1].broken += complaints
 
     def _ready(self, setup: Setup) -> Rig:
-        """Give a rig of this kind whose fingers push: the one that runs, or else a fresh one."""
-        if self._rig is not None and self._rig.setup == setup:
-            try:
+        """Give a rig of this kind whose fingers push: the one that runs, unless it is used up."""
+        if self._rig is not None:
+            if self._rig.setup == setup and self._rig.is_in_the_middle():
                 self._push(self._rig)
                 return self._rig
-            except BrokenPromiseError:  # used up: the object has gone or the finger is at its end
-                pass
-        if self._rig is not None:
             self.finish()
         self._rig = self._start(setup)
         self._push(self._rig)

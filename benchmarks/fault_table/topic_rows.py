@@ -24,8 +24,6 @@ from geometry_msgs.msg import PoseStamped, Quaternion, TwistStamped
 from lifecycle_msgs.msg import State
 from sensor_msgs.msg import JointState
 
-from .finger import Finger
-from .messages import stamp_of
 from .promise import ONE_PERIOD, fault
 from .rig import Rig, expect
 
@@ -54,18 +52,12 @@ def _stamp(late: float = 0.0) -> tuple[int, int]:
     return divmod(time.time_ns() - round(late * 1e9), 1_000_000_000)
 
 
-def _publish(finger: Finger, topic: str, message: Any) -> float:
-    """Publish a message that is no one else's and give the moment [s]."""
-    finger.foreign.add(stamp_of(message))
-    return finger.observer.publish(finger.name(topic), message)
-
-
 def _implausible(rig: Rig, rotation: Quaternion | None = None, frame: str = FRAME) -> None:
     """Publish contacts that no edge can have, among the real ones."""
     finger = rig.finger
     begin = time.monotonic()
     while time.monotonic() - begin < BAD:
-        _publish(finger, 'contact', contact(rotation, frame))
+        finger.publish('contact', contact(rotation, frame))
         rig.observer.spin(PERIOD)
     rig.stopped(begin, hold=0.1)
     expect('implausible contact' in finger.reasons_since(begin), 'stopped for another reason')
@@ -114,7 +106,7 @@ def _does_not_count(rig: Rig, topic: str, make: Callable[[], Any]) -> None:
     begin = time.monotonic()
     commands = max(0, len(finger.commands) - 1)
     while time.monotonic() - begin < STREAM:
-        _publish(finger, topic, make())
+        finger.publish(topic, make())
         rig.observer.spin(PERIOD)
     reasons = finger.reasons_since(begin) - {''}
     expect(not reasons, f'stopped: {", ".join(reasons)}')
@@ -208,18 +200,18 @@ def _held(rig: Rig, reason: str) -> None:
 @fault('another command', ONE_PERIOD)
 def another_command(rig: Rig) -> None:
     """Another command; resumes by service."""
-    rig.stopped(_publish(rig.finger, 'finger/cmd_vel', command(0.001)))
+    rig.stopped(rig.finger.publish('finger/cmd_vel', command(0.001)))
     _held(rig, 'another command')
 
 
 @fault('another command, not finite', ONE_PERIOD)
 def another_command_not_finite(rig: Rig) -> None:
     """The plant ignores it; another command; resumes by service."""
-    rig.stopped(_publish(rig.finger, 'finger/cmd_vel', command(NAN)))
+    rig.stopped(rig.finger.publish('finger/cmd_vel', command(NAN)))
     _held(rig, 'another command')
 
 
-@fault('two controllers', 2.0 * ONE_PERIOD)
+@fault('two controllers', ONE_PERIOD + 0.1)
 def two_controllers(rig: Rig) -> None:
     """Both stop: another command; the one that is left resumes by service."""
     finger = rig.finger

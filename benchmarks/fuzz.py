@@ -1,0 +1,101 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Feed ten million bytes of spoiled device input, and every message field at its extremes.
+
+    python benchmarks/fuzz.py [--bytes N] [--seed S]
+
+The bytes go through stream, contact finder and control in this process; then the messages go to the
+real nodes in processes of their own. Nothing may throw or end, memory stays flat, every command is
+finite and within its bounds, and afterwards the finger pushes again.
+"""
+
+import argparse
+import random
+import signal
+import sys
+from collections.abc import Callable
+from types import FrameType
+
+from fault_table.promise import PLAIN, BrokenPromiseError
+from fault_table.table import start_rig
+from fuzzing.chain import FuzzError, run
+from fuzzing.mutation import mutated_input
+from fuzzing.nodes import send_extremes
+from rich.console import Console
+from rich.progress import Progress
+
+DEFAULT_BYTES = 10_000_000
+
+
+def fuzz_bytes(total: int, seed: int, progress: Callable[[int], None]) -> str:
+    """Send bytes through the mathematics and say in a line what came of them."""
+    chain, growth = run(mutated_input(random.Random(seed)), total, progress)
+    return (
+        f'{total} bytes in {chain.reads} reads: {chain.readings} readings, {chain.contacts} '
+        f'contacts, {chain.moving} of {chain.ticks} ticks moving; memory +{growth / 1000:.0f} kB'
+    )
+
+
+def fuzz_messages(progress: Callable[[str], None]) -> str:
+    """Send messages to the nodes and say in a line what came of them."""
+    rig = start_rig(PLAIN)
+    try:
+        sent = send_extremes(rig, progress)
+    finally:
+        complaints = rig.close()
+    if complaints:
+        raise FuzzError('; '.join(complaints))
+    return f'{sent} messages: all nodes run, all commands finite, the finger pushes again'
+
+
+def main() -> int:
+    """Run the fuzzing."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument(
+        '--bytes', type=int, default=DEFAULT_BYTES, metavar='N', help='default: ten million'
+    )
+    parser.add_argument('--seed', type=int, default=1, metavar='S', help='default: 1')
+    options = parser.parse_args()
+    if options.bytes < 1:
+        print(f'fuzz: --bytes: expected 1 or more, got {options.bytes}', file=sys.stderr)
+        return 2
+    signal.signal(signal.SIGTERM, _terminate)
+    try:
+        with Progress(console=Console(stderr=True)) as progress:
+            task = progress.add_task('bytes', total=options.bytes)
+            print(
+                fuzz_bytes(
+                    options.bytes,
+                    options.seed,
+                    lambda done: progress.update(task, completed=done),
+                )
+            )
+            task = progress.add_task('messages', total=None)
+            print(
+                fuzz_messages(lambda what: progress.update(task, description=what[:60], advance=1))
+            )
+    except (FuzzError, BrokenPromiseError) as error:
+        print(f'fuzz: {error}')
+        return 1
+    except KeyboardInterrupt:
+        return 130
+    return 0
+
+
+def _terminate(signum: int, frame: FrameType | None) -> None:
+    raise KeyboardInterrupt
+
+
+if __name__ == '__main__':
+    sys.exit(main())

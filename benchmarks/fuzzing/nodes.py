@@ -1,0 +1,101 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Messages at their extremes, to the real nodes."""
+
+import copy
+import math
+import time
+from collections.abc import Callable
+from typing import Any
+
+from fault_table.messages import field
+from fault_table.rig import Rig
+from geometry_msgs.msg import TwistStamped
+from sensor_msgs.msg import JointState
+
+from tactile_push.control import HELD
+
+from .chain import FuzzError
+from .messages import extremes
+
+PAUSE = 0.005  # between messages [s]
+CLOSE_LOOK = 10  # messages between two looks at what the nodes said
+
+
+def send_extremes(rig: Rig, progress: Callable[[str], None] = lambda what: None) -> int:
+    """Send every message that the nodes hear with every field at its extremes.
+
+    Parameters
+    ----------
+    rig : Rig
+        A running rig.
+    progress : callable, optional
+        Told what is being sent.
+
+    Returns
+    -------
+    int
+        How many messages were sent.
+
+    Raises
+    ------
+    FuzzError
+        If a node said or did what it must not.
+    BrokenPromiseError
+        If the finger does not push afterwards.
+    """
+    finger = rig.finger
+    joints = rig.observer.hear(JointState, finger.name('joint_states'))
+    finger.push()
+    rig.observer.wait_for(lambda: joints, 'joint states')
+    topics: dict[str, Any] = {
+        'contact': finger.contacts[-1].message,
+        'tactile': finger.tactile[-1].message,
+        'joint_states': joints[-1].message,
+        'finger/cmd_vel': TwistStamped(),
+    }
+    sent = 0
+    for topic, valid in topics.items():
+        for what, message in extremes(valid):
+            progress(f'{topic}: {what}')
+            finger.publish(topic, message)
+            rig.observer.spin(PAUSE)
+            sent += 1
+            if sent % CLOSE_LOOK == 0:
+                _look(rig, f'{topic}: {what}')
+        _look(rig, topic)
+    rig.observer.spin(1.0)
+    finger.turn()
+    if finger.reason() in HELD:
+        finger.resume()
+    finger.wait_until_moving(10.0)
+    _look(rig, 'at the end')
+    return sent
+
+
+def _stamped(message: Any) -> Any:
+    """Give a copy that is stamped now."""
+    fresh = copy.deepcopy(message)
+    stamp = fresh.header.stamp
+    stamp.sec, stamp.nanosec = divmod(time.time_ns(), 1_000_000_000)
+    return fresh
+
+
+def _look(rig: Rig, after: str) -> None:
+    """Raise `FuzzError` if a node has ended, thrown or moved by what is no number."""
+    found = rig.complaints()
+    if not all(math.isfinite(field(h.message, 'v_x')) for h in rig.finger.truth[-100:]):
+        found.append('the finger moves at no finite velocity')
+    if found:
+        raise FuzzError(f'after {after}: {"; ".join(found)}')
