@@ -23,7 +23,8 @@ from tactile_push.tactile import ContactFinder, ReadingRejectedError, SentenceSt
 READ_PERIOD = 0.02  # [s]
 CONTROL_PERIOD = 0.1  # [s]
 READS_PER_TICK = 5
-MOST_GROWTH = 50_000  # of memory after the first tenth of the input [byte]
+WARM_UP = 100_000  # after so many bytes or a tenth of them, memory no longer grows [byte]
+MOST_GROWTH = 50_000  # of memory afterwards [byte]
 MOST_AT_ONCE = 1_000_000  # while one read is worked on [byte]
 ROUNDING = 1e-12  # [m/s]
 
@@ -114,7 +115,7 @@ def run(
     Chain
         What they passed.
     int
-        How much memory grew after the first tenth [byte].
+        How much memory grew after the warm-up [byte].
 
     Raises
     ------
@@ -128,12 +129,13 @@ def run(
             chain.read(piece)
             done += len(piece)
             progress(done)
-            if not baseline and done >= total / 10:
+            if not baseline and done >= max(total / 10, WARM_UP):
                 baseline, _ = tracemalloc.get_traced_memory()
                 tracemalloc.reset_peak()
             if done >= total:
                 break
         end, peak = tracemalloc.get_traced_memory()
+        baseline = baseline or end
     finally:
         tracemalloc.stop()
     for growth, most in ((end - baseline, MOST_GROWTH), (peak - baseline, MOST_AT_ONCE)):
