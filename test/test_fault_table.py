@@ -32,6 +32,7 @@ sys.path.insert(0, str(BENCHMARKS))
 
 from fault_table import FAULTS  # noqa: E402
 from fault_table.checks import wrong_commands, wrong_contacts, wrong_readings  # noqa: E402
+from fault_table.machine import HoldUps  # noqa: E402
 from fault_table.parameter_rows import wrong_values  # noqa: E402
 from fault_table.promise import (  # noqa: E402
     PLAIN,
@@ -126,6 +127,50 @@ def test_what_must_not_be_heard_breaks_any_promise(runner):
         rig.found = ['command of nan']
 
     assert runner.run(row(inject)).broken == ['command of nan']
+
+
+def test_row_that_is_broken_while_the_machine_stood_still_is_measured_again(runner, log):
+    attempts = []
+
+    def stand_still(rig):
+        attempts.append(rig)
+        runner._hold_ups.longest = 0.5
+        if len(attempts) == 1:
+            raise BrokenPromiseError('too late')
+
+    assert runner.run(row(stand_still)).held
+    assert len(attempts) == 2
+    attempts.clear()
+
+    def stand_still_and_break(rig):
+        attempts.append(rig)
+        runner._hold_ups.longest = 0.5
+        raise BrokenPromiseError('too late')
+
+    outcome = runner.run(row(stand_still_and_break))
+    assert len(attempts) == 3
+    assert outcome.broken == ['too late', 'attempt 3; the machine stood still for 500 ms']
+    assert len(runner.outcomes) == 2
+
+
+def test_standstill_of_the_machine_is_noticed():
+    hold_ups = HoldUps()
+    try:
+        hold_ups.restart()
+        interval = sys.getswitchinterval()
+        sys.setswitchinterval(10.0)  # nobody else gets the processor
+        end = time.monotonic() + 0.3
+        while time.monotonic() < end:
+            pass
+        sys.setswitchinterval(interval)
+        deadline = time.monotonic() + 5.0
+        while hold_ups.longest < 0.2 and time.monotonic() < deadline:
+            time.sleep(0.01)
+        assert 0.2 < hold_ups.longest < 5.0
+        hold_ups.restart()
+        assert hold_ups.longest < 0.2
+    finally:
+        hold_ups.close()
 
 
 def test_rig_serves_rows_until_one_is_broken_or_the_last_or_needs_another(runner, log):

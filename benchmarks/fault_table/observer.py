@@ -85,6 +85,10 @@ class Observer:
         )
         return heard
 
+    def spin_once(self) -> None:
+        """Hear what is there, or wait a moment for it."""
+        self._executor.spin_once(timeout_sec=0.02)
+
     def spin(self, seconds: float) -> None:
         """Hear for a while."""
         end = time.monotonic() + seconds
@@ -97,7 +101,7 @@ class Observer:
         while not (outcome := condition()):
             if time.monotonic() > deadline:
                 raise BrokenPromiseError(f'waited {patience:g} s in vain for {what}')
-            self._executor.spin_once(timeout_sec=0.02)
+            self.spin_once()
         return outcome
 
     def call(

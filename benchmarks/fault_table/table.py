@@ -23,10 +23,13 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from .machine import HoldUps
 from .promise import BrokenPromiseError, Fault, Outcome, Setup
 from .rig import Rig
 
 StartRig = Callable[[Setup], Rig]
+STANDSTILL = 0.1  # of the machine, after which a broken row says nothing of the nodes [s]
+ATTEMPTS = 3
 
 
 def start_rig(setup: Setup) -> Rig:
@@ -73,6 +76,7 @@ class Runner:
     def __init__(self, start: StartRig = start_rig) -> None:
         self._start = start
         self._rig: Rig | None = None
+        self._hold_ups = HoldUps()
         self.outcomes: list[Outcome] = []
 
     def __enter__(self) -> 'Runner':
@@ -81,10 +85,11 @@ class Runner:
 
     def __exit__(self, *exception: object) -> None:
         """End everything."""
+        self._hold_ups.close()
         self._close()
 
     def run(self, fault: Fault) -> Outcome:
-        """Measure a row.
+        """Measure a row; again if it is broken and the machine stood still meanwhile.
 
         Parameters
         ----------
@@ -96,9 +101,21 @@ class Runner:
         Outcome
             What came out.
         """
+        for attempt in range(1, ATTEMPTS + 1):
+            self._hold_ups.restart()
+            outcome = self._measure(fault)
+            held_up = self._hold_ups.longest
+            if outcome.held or held_up < STANDSTILL:
+                break
+            outcome.broken.append(
+                f'attempt {attempt}; the machine stood still for {1000.0 * held_up:.0f} ms'
+            )
+        self.outcomes.append(outcome)
+        return outcome
+
+    def _measure(self, fault: Fault) -> Outcome:
         within = None if fault.within is None else 1000.0 * fault.within
         outcome = Outcome(fault.name, fault.promise, within, None)
-        self.outcomes.append(outcome)
         try:
             rig = self._ready(fault.setup)
         except BrokenPromiseError as error:

@@ -1,0 +1,51 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Whether the machine itself stood still, which no node can be blamed for."""
+
+import threading
+import time
+
+NAP = 0.01  # [s]
+
+
+class HoldUps:
+    """Notices when this process gets no processor for a while.
+
+    Attributes
+    ----------
+    longest : float
+        Longest hold-up since `restart` [s].
+    """
+
+    def __init__(self) -> None:
+        self.longest = 0.0
+        self._closing = threading.Event()
+        self._thread = threading.Thread(target=self._run, name='hold-ups', daemon=True)
+        self._thread.start()
+
+    def restart(self) -> None:
+        """Forget what was."""
+        self.longest = 0.0
+
+    def close(self) -> None:
+        """End."""
+        self._closing.set()
+        self._thread.join()
+
+    def _run(self) -> None:
+        before = time.monotonic()
+        while not self._closing.wait(NAP):
+            now = time.monotonic()
+            self.longest = max(self.longest, now - before - NAP)
+            before = now
