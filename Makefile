@@ -1,4 +1,5 @@
-# make demo: run the demonstration; make test: run all tests; make bench: measure speeds.
+# make demo: run the demonstration; make test: run all tests; make bench: measure speeds;
+# make faults: inject every fault; make fuzz: spoil every input; make soak: run for long.
 # Each sets up .venv the first time.
 
 PYTHON ?= python3
@@ -8,7 +9,7 @@ READY := $(VENV)/ready
 TEST_READY := $(VENV)/ready-to-test
 INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable
 
-.PHONY: demo test lint bench clean
+.PHONY: demo test lint bench faults fuzz soak clean
 
 demo: $(READY)
 	$(BIN)/tactile_push demo
@@ -18,6 +19,16 @@ test: lint
 
 bench: $(TEST_READY)
 	$(BIN)/python -m pytest benchmarks/bench_*.py -s --benchmark-columns=min,median,stddev,rounds
+
+faults: $(TEST_READY)
+	mkdir -p out
+	$(BIN)/python benchmarks/faults.py --json out/faults.json
+
+fuzz: $(TEST_READY)
+	$(BIN)/python benchmarks/fuzz.py
+
+soak: $(TEST_READY)
+	$(BIN)/python benchmarks/soak.py
 
 lint: $(TEST_READY)
 	$(BIN)/ruff check .
