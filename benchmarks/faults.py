@@ -22,12 +22,11 @@ wrong reading was published, a log shows a traceback or a node did not end with 
 """
 
 import argparse
-import signal
 import sys
 from pathlib import Path
-from types import FrameType
 
 from fault_table import FAULTS
+from fault_table.interrupt import interrupt_once
 from fault_table.table import Runner, show, write
 from rich.console import Console
 from rich.progress import Progress
@@ -52,7 +51,7 @@ def main() -> int:
         return 0
     if options.json and not options.json.parent.is_dir():
         return _refuse(f'--json: expected a file in a folder that is there, got {options.json}')
-    signal.signal(signal.SIGTERM, _terminate)
+    interrupt_once()
     console = Console(stderr=True)
     try:
         with Runner() as runner, Progress(console=console) as progress:
@@ -74,10 +73,6 @@ def main() -> int:
 def _refuse(reason: str) -> int:
     print(f'faults: {reason}', file=sys.stderr)
     return 2
-
-
-def _terminate(signum: int, frame: FrameType | None) -> None:
-    raise KeyboardInterrupt
 
 
 if __name__ == '__main__':

@@ -22,11 +22,10 @@ finite and within its bounds, and afterwards the finger pushes again.
 
 import argparse
 import random
-import signal
 import sys
 from collections.abc import Callable
-from types import FrameType
 
+from fault_table.interrupt import interrupt_once
 from fault_table.promise import PLAIN, BrokenPromiseError
 from fault_table.table import start_rig
 from fuzzing.chain import FuzzError, run
@@ -70,7 +69,7 @@ def main() -> int:
     if options.bytes < 1:
         print(f'fuzz: --bytes: expected 1 or more, got {options.bytes}', file=sys.stderr)
         return 2
-    signal.signal(signal.SIGTERM, _terminate)
+    interrupt_once()
     try:
         with Progress(console=Console(stderr=True)) as progress:
             task = progress.add_task('bytes', total=options.bytes)
@@ -91,10 +90,6 @@ def main() -> int:
     except KeyboardInterrupt:
         return 130
     return 0
-
-
-def _terminate(signum: int, frame: FrameType | None) -> None:
-    raise KeyboardInterrupt
 
 
 if __name__ == '__main__':

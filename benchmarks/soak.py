@@ -22,11 +22,10 @@ the controller has stopped and says why.
 
 import argparse
 import json
-import signal
 import sys
 from pathlib import Path
-from types import FrameType
 
+from fault_table.interrupt import interrupt_once
 from rich.console import Console
 from rich.progress import Progress
 from soaking.run import Soak
@@ -51,7 +50,7 @@ def main() -> int:
         return _refuse(f'--hours: expected more than 0 and at most 1000, got {options.hours}')
     if options.json and not options.json.parent.is_dir():
         return _refuse(f'--json: expected a file in a folder that is there, got {options.json}')
-    signal.signal(signal.SIGTERM, _terminate)
+    interrupt_once()
     try:
         with Progress(console=Console(stderr=True)) as progress:
             task = progress.add_task('simulated time', total=options.hours)
@@ -72,10 +71,6 @@ def main() -> int:
 def _refuse(reason: str) -> int:
     print(f'soak: {reason}', file=sys.stderr)
     return 2
-
-
-def _terminate(signum: int, frame: FrameType | None) -> None:
-    raise KeyboardInterrupt
 
 
 if __name__ == '__main__':

@@ -234,7 +234,7 @@ def main(monkeypatch, capsys, log):
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     monkeypatch.setattr(module, 'Runner', lambda: Runner(lambda setup: FakeRig(setup, log)))
-    monkeypatch.setattr(module.signal, 'signal', lambda *arguments: None)
+    monkeypatch.setattr(module, 'interrupt_once', lambda: None)
 
     def run(faults, *arguments):
         monkeypatch.setattr(module, 'FAULTS', faults)

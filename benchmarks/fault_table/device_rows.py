@@ -32,7 +32,7 @@ from .proxy import Corruption
 from .rig import Rig, expect
 
 START = -0.06  # of the finger, in finger_base [m]
-ROOM = 0.01  # to both sides [m]
+ROOM = 0.003  # to both sides [m]
 NARROW = Setup(controller=(('workspace_min', START - ROOM), ('workspace_max', START + ROOM)))
 BRAKING = 0.004  # what the finger may overshoot: max_speed for a control period and two ways [m]
 TURN = math.radians(15.0)
