@@ -28,11 +28,15 @@ class Newest:
         Newest value that was believed; NaN before the first one.
     stamp : float
         Its stamp [s]; minus infinity before the first one.
+    since : float
+        From when on it ages [s]: its stamp or, if that was ahead, when it was looked at. A clock
+        that is ahead must not make a value last longer.
     """
 
     def __init__(self) -> None:
         self.value = math.nan
         self.stamp = -math.inf
+        self.since = -math.inf
         self._arrived: tuple[float, float] | None = None
 
     @property
@@ -77,4 +81,5 @@ class Newest:
         if arrived is None or arrived[1] - now > timeout:
             return False
         self.value, self.stamp = arrived
+        self.since = min(self.stamp, now)
         return now - self.stamp <= timeout

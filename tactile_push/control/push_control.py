@@ -114,6 +114,7 @@ class PushControl:
         self.belt_speed = belt_speed
         self.period = period
         self.limits = limits or Limits()
+        self._finger_was_known = False
         self.activate(0.0)
         self.state = INACTIVE
 
@@ -223,13 +224,16 @@ class PushControl:
         self._count(now, steady)
         felt = self._contact.fresh(now, self.limits.contact_timeout)
         self._finger.fresh(now, self.limits.joint_state_timeout)
+        self._finger_was_known |= self._finger.known
         if self._implausible:
             self._implausible = False
             self._implausible_at = now
         reason = self._reason if self._reason in HELD else self._cause_to_rest(now)
         if self.state == WAITING:
-            if felt and not reason:
+            if felt:
                 self.state = PUSHING
+                if reason:
+                    self._rest(reason)
         elif reason:
             self._rest(reason)
         elif self._reason not in (NO_REASON, WORKSPACE_LIMIT):
@@ -263,9 +267,11 @@ class PushControl:
         limits = self.limits
         if abs(now - self._implausible_at) <= limits.contact_timeout:
             return IMPLAUSIBLE_CONTACT
-        if not abs(now - self._contact.stamp) <= limits.contact_timeout:
+        if not abs(now - self._contact.since) <= limits.contact_timeout:
             return CONTACT_SILENT
-        if self._finger.known and not abs(now - self._finger.stamp) <= limits.joint_state_timeout:
+        # Not even a new start lets go of a finger that could be watched and cannot be any more.
+        known = abs(now - self._finger.since) <= limits.joint_state_timeout
+        if self._finger_was_known and not known:
             return FINGER_UNKNOWN
         return NO_REASON
 

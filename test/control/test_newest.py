@@ -38,6 +38,15 @@ def test_the_newest_of_those_that_arrived_is_given_once():
     assert newest.value == 2.0
 
 
+@pytest.mark.parametrize(('stamp', 'since'), [(5.5, 5.5), (6.0, 6.0), (6.75, 6.0)])
+def test_a_value_that_is_ahead_ages_from_when_it_was_looked_at(stamp, since):
+    newest = Newest()
+    newest.take(2.0, stamp)
+
+    assert newest.fresh(6.0, 1.0)
+    assert (newest.stamp, newest.since) == (stamp, since)
+
+
 @pytest.mark.parametrize('stamp', [5.5, 5.0, -math.inf, math.nan, math.inf])
 def test_what_is_not_newer_is_ignored(stamp):
     newest = Newest()

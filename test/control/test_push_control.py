@@ -336,6 +336,16 @@ def test_a_clock_that_is_a_little_ahead_does_no_harm():
     assert tick.silence == -0.0625
 
 
+def test_a_clock_that_is_ahead_does_not_put_off_the_stop():
+    running = pushing(10.0)
+    running.feel(0.2, 10.375)  # ahead by as much as is believed
+
+    states = [running.tick(10.0 + k * PERIOD).state for k in range(1, 5)]
+
+    # Looked at at 10.125, so it is older than the timeout of 0.25 after three more ticks.
+    assert states == [PUSHING, PUSHING, PUSHING, STOPPED]
+
+
 def test_ticks_are_counted_from_1():
     counting = control()
     counting.activate(3.0)
@@ -604,6 +614,47 @@ def test_without_knowing_where_the_finger_is_it_pushes_until_it_has_known_once()
     running.feel(0.1, 10.625)
     tick = running.tick(10.625)
     assert (tick.state, tick.v_x, tick.phi) == (PUSHING, 0.0, AHEAD)
+
+
+@pytest.mark.parametrize('act', ['jump', 'activate'])
+def test_a_finger_that_was_known_once_has_to_be_known_after_a_new_start_too(act):
+    running = pushing(10.0)
+    running.locate_finger(0.0, 10.125)
+    running.feel(0.1, 10.125)
+    assert running.tick(10.125).state == PUSHING
+    if act == 'jump':
+        running.notice_clock_jump(20.0)
+        running.tick(20.0)
+        assert running.resume()
+    else:
+        running.deactivate()
+        running.activate(20.0)
+    for k in range(1, 5):
+        running.feel(0.1, 20.0 + k * PERIOD)
+        tick = running.tick(20.0 + k * PERIOD)
+        assert (tick.state, tick.stop_reason, tick.v_x) == (STOPPED, FINGER_UNKNOWN, 0.0)
+
+    running.locate_finger(0.0, 20.625)
+    running.feel(0.1, 20.625)
+    tick = running.tick(20.625)
+    assert (tick.state, tick.v_x) == (PUSHING, 0.0)
+
+
+def test_what_forbids_to_push_at_the_first_contact_is_said():
+    waiting = control()
+    waiting.locate_finger(0.0, 0.0)
+    assert waiting.tick(0.0).state == WAITING
+    assert waiting.tick(5.0).state == WAITING
+    waiting.feel(0.1, 5.125)
+
+    tick = waiting.tick(5.125)
+
+    assert (tick.state, tick.stop_reason, tick.v_x) == (STOPPED, FINGER_UNKNOWN, 0.0)
+    for k in range(2, 6):
+        waiting.locate_finger(0.0, 5.0 + k * PERIOD)
+        waiting.feel(math.nan, 5.0 + k * PERIOD)
+        waiting.feel(0.1, 5.0 + k * PERIOD)
+        assert waiting.tick(5.0 + k * PERIOD).stop_reason == IMPLAUSIBLE_CONTACT
 
 
 @pytest.mark.parametrize('stamp', [10.0, 9.0, 11.0, math.nan])
