@@ -52,6 +52,8 @@ from tactile_push.tactile import yaw_of_quaternion
 
 # Deep enough that no bad message hides behind a good one.
 SENSOR_DATA = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
+# Best effort hears everybody: a commander that is best effort itself is not heard otherwise.
+COMMANDS = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
 REMEMBERED = 32  # own commands that may still be on their way back to this node
 
 
@@ -102,7 +104,7 @@ class PushController(ManagedNode):
                 JointState, 'joint_states', self._on_joint_states, SENSOR_DATA
             ),
             self.create_subscription(PoseStamped, 'contact', self._on_contact, SENSOR_DATA),
-            self.create_subscription(TwistStamped, 'finger/cmd_vel', self._on_command, 10),
+            self.create_subscription(TwistStamped, 'finger/cmd_vel', self._on_command, COMMANDS),
         )
         return TransitionCallbackReturn.SUCCESS
 
@@ -238,16 +240,18 @@ class PushController(ManagedNode):
             return
         self.destroy_timer(self._timer)
         self._timer = None
+        self._counted = self._counts()
         self._tick = None
         now = self.get_clock().now()
         self._publish_command(now, 0.0)
         self._publish_state(now, self._control.deactivate())
         self._command.wait_for_all_acked(Duration(seconds=0.1))
 
-    def _counts(self) -> dict[str, int]:
-        tick = self._tick
-        ticks = {} if tick is None else {'ticks': tick.ticks, 'ticks lost': tick.ticks_lost}
-        return {**ticks, **self._counted}
+    def _counts(self) -> Counter[str]:
+        counts = self._counted.copy()
+        if self._tick is not None:  # which counts since activation
+            counts.update({'ticks': self._tick.ticks, 'ticks lost': self._tick.ticks_lost})
+        return counts
 
     def _health(self) -> Health:
         if self._timer is None:

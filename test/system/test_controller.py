@@ -27,6 +27,7 @@ from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import GetState
 from rclpy.clock import Clock as NodeClock
 from rclpy.clock_type import ClockType
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
@@ -186,10 +187,14 @@ def test_contacts_that_are_old_or_of_the_future_do_not_count(world: World):
     world.check_that_it_rests()
 
 
-def test_another_commander_stops_the_finger_until_it_is_resumed(world: World):
+@pytest.mark.parametrize('reliability', ['RELIABLE', 'BEST_EFFORT'])
+def test_another_commander_stops_the_finger_until_it_is_resumed(world: World, reliability: str):
     world.start()
-    other = world.observer.node.create_publisher(TwistStamped, 'finger/cmd_vel', 10)
-    world.observer.wait_for(lambda: other.get_subscription_count() >= 2, 'the controller to hear')
+    qos = QoSProfile(depth=10, reliability=ReliabilityPolicy[reliability])
+    other = world.observer.node.create_publisher(TwistStamped, 'finger/cmd_vel', qos)
+    # The test itself hears reliable ones only.
+    hearing = 2 if reliability == 'RELIABLE' else 1
+    world.observer.wait_for(lambda: other.get_subscription_count() >= hearing, 'to be heard')
     command = TwistStamped()
     command.twist.linear.x = 0.003
     other.publish(command)
@@ -288,6 +293,31 @@ def test_inactive_is_said_on_the_state_topic_and_in_diagnostics(world: World):
     assert world.commands[-1].twist.linear.x == 0.0
     world.observer.wait_for(lambda: world.levels()[-1] == (b'\x00', 'inactive'), 'inactive')
     assert not world.resume().success
+
+
+def test_what_is_counted_goes_on_after_a_new_activation(world: World):
+    world.start()
+    told = (DiagnosticStatus.WARN, 'waiting for contact')
+    for _ in range(2):
+        world.observer.wait_for(lambda: len(ticks_told(world)) > 1, 'ticks to be told')
+        world.diagnostics.clear()
+        world.silent = True
+        assert world.observer.change_state('push_controller', Transition.TRANSITION_DEACTIVATE)
+        before = int(field(world.states[-1], 'ticks'))
+        assert world.observer.change_state('push_controller', Transition.TRANSITION_ACTIVATE)
+        world.observer.wait_for(lambda: world.levels()[-1:] == [told], 'a new wait')
+        assert ticks_told(world)[-1] >= before
+        world.silent = False
+
+
+def ticks_told(world: World) -> list[int]:
+    return [
+        int(pair.value)
+        for array in world.diagnostics
+        for status in array.status
+        for pair in status.values
+        if pair.key == 'ticks'
+    ]
 
 
 CONFIGURE, CLEANUP = Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_CLEANUP
