@@ -27,6 +27,7 @@ from rcl_interfaces.msg import (
     ParameterDescriptor,
     SetParametersResult,
 )
+from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.exceptions import ParameterException
 from rclpy.node import Node
 
@@ -159,7 +160,7 @@ def declare(
             raise ConfigurationError(
                 f'parameter {parameter.name}: expected {parameter.expected()}, got {given!r}'
             ) from None
-        setattr(values, parameter.name, value)
+        setattr(values, parameter.name, [] if value is None else value)  # rclpy's empty list
     for name in overrides:
         if not node.has_parameter(name) and not name.startswith('qos_overrides.'):
             similar = difflib.get_close_matches(name, list(vars(values)), n=1, cutoff=0.5)
@@ -167,4 +168,27 @@ def declare(
                 raise ConfigurationError(f'parameter {name}: unknown, did you mean {similar[0]}?')
             node.get_logger().warning(f'parameter {name}: unknown, so it does nothing')
     node.add_post_set_parameters_callback(take)
+    _refuse_values_of_no_type(node)
     return values
+
+
+def _refuse_values_of_no_type(node: Node) -> None:
+    """Answer a request with a type that does not exist, by which rclpy lets the process end."""
+    types = {known.value for known in rclpy.parameter.Parameter.Type}
+
+    def guard(answer: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
+        def guarded(request: Any, response: Any) -> Any:
+            if all(parameter.value.type in types for parameter in request.parameters):
+                return answer(request, response)
+            refusal = SetParametersResult(successful=False, reason='a value of no known type')
+            if isinstance(response, SetParameters.Response):
+                response.results = [refusal] * len(request.parameters)
+            else:
+                response.result = refusal
+            return response
+
+        return guarded
+
+    for service in node.services:
+        if service.srv_type in (SetParameters, SetParametersAtomically):
+            service.callback = guard(service.callback)

@@ -19,6 +19,7 @@ import sys
 from types import FrameType
 
 import rclpy
+from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
@@ -69,7 +70,7 @@ def run(node_class: type[Node]) -> int:
                 f'unknown argument {foreign[0]}, expected --ros-args -p NAME:=VALUE'
             )
         node = node_class()
-    except ConfigurationError as error:
+    except (ConfigurationError, ParameterException) as error:  # the latter of use_sim_time
         rclpy.try_shutdown()
         return _refuse(node_class, str(error))
     executor = Executor()

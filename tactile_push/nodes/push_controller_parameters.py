@@ -193,6 +193,6 @@ def make_finger(p: SimpleNamespace) -> PlanarFinger:
     ValueError
         If it has not two joints.
     """
-    if len(p.joint_names) != 2:
-        raise ValueError(f'joint_names: expected two names, got {p.joint_names}')
+    if not len(p.joint_names) == len(set(p.joint_names)) == 2:
+        raise ValueError(f'joint_names: expected two different names, got {p.joint_names}')
     return PlanarFinger(p.proximal_length, p.distal_length, p.mount_angle)

@@ -11,12 +11,13 @@
 # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
 # See the License for the specific language governing permissions and
 # limitations under the License.
+import math
 from pathlib import Path
 
 import pytest
 from conftest import Observer
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
-from rcl_interfaces.srv import GetParameters, SetParameters
+from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
 
 from tactile_push.processes import NodeProcesses
 
@@ -34,6 +35,8 @@ def double(value: float) -> ParameterValue:
         ('theta_desired', double(40.0)),
         ('belt_speed', double(0.01)),
         ('kpp', double(1.0)),
+        ('kp', ParameterValue()),
+        ('kp', ParameterValue(type=77)),
     ],
 )
 def test_refused_parameter_stays_unchanged(
@@ -55,6 +58,23 @@ def test_refused_parameter_stays_unchanged(
     assert get() == before
 
 
+def test_values_of_no_type_are_refused_together_too(nodes: NodeProcesses, observer: Observer):
+    nodes.start('contact_geometry')
+    request = SetParametersAtomically.Request(
+        parameters=[
+            Parameter(name='mount_angle', value=double(0.5)),
+            Parameter(name='mount_angle', value=ParameterValue(type=255)),
+        ]
+    )
+    service = 'contact_geometry/set_parameters_atomically'
+    result = observer.call(SetParametersAtomically, service, request).result
+    assert not result.successful
+    assert result.reason
+    request = GetParameters.Request(names=['mount_angle'])
+    answer = observer.call(GetParameters, 'contact_geometry/get_parameters', request)
+    assert answer.values[0].double_value == math.pi / 2.0
+
+
 def test_gains_change_at_run_time(nodes: NodeProcesses, observer: Observer):
     nodes.start('push_controller')
     request = SetParameters.Request(parameters=[Parameter(name='kd', value=double(3.0))])
@@ -70,6 +90,9 @@ def test_gains_change_at_run_time(nodes: NodeProcesses, observer: Observer):
     [
         ('push_controller', {'kp': -1.0}, 'parameter kp: expected a number'),
         ('push_controller', {'kp': 1}, 'parameter kp: expected a number with a decimal point'),
+        ('push_controller', {'joint_names': []}, 'joint_names: expected two different names'),
+        ('push_controller', {'joint_names': ['a', 'a']}, 'joint_names: expected two different'),
+        ('push_controller', {'use_sim_time': 'maybe'}, "'use_sim_time' to 'maybe'"),
         ('push_controller', {'kq': 1.0}, 'parameter kq: unknown, did you mean kp?'),
         ('sim_plant', {'object': 'cone'}, 'parameter object: expected one of block, disk'),
         ('sim_plant', {'d_initial': 0.03}, 'd: expected a contact on the outline'),
