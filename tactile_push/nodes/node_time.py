@@ -13,8 +13,13 @@
 # limitations under the License.
 """A node's time as a number."""
 
+import time
+
 from builtin_interfaces.msg import Time
 from rclpy.node import Node
+
+AT_ONCE = 1e-3  # in which two clocks are read, unless something comes in between [s]
+TRIES = 10
 
 
 class NodeTime:
@@ -37,6 +42,20 @@ class NodeTime:
         """Give the present time [s]."""
         nanoseconds = self._clock.now().nanoseconds - self._epoch * 10**9
         return nanoseconds * 1e-9
+
+    def now_and_steady(self) -> tuple[float, float]:
+        """Give the present time [s], and the same on a clock that cannot be set [s].
+
+        If this process had to wait between the two they are read again: the wait would look like
+        a clock that was set.
+        """
+        for _ in range(TRIES):
+            before = time.monotonic()
+            now = self.now()
+            steady = time.monotonic()
+            if steady - before < AT_ONCE:
+                break
+        return now, steady
 
     def of(self, stamp: Time) -> float:
         """Give the time of a message's stamp [s]."""

@@ -13,6 +13,7 @@
 # limitations under the License.
 """Runs the control law on contacts and commands the finger."""
 
+import math
 import sys
 import time
 from collections import Counter, deque
@@ -52,9 +53,13 @@ from tactile_push.tactile import yaw_of_quaternion
 
 # Deep enough that no bad message hides behind a good one.
 SENSOR_DATA = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
-# Best effort hears everybody: a commander that is best effort itself is not heard otherwise.
-COMMANDS = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
-REMEMBERED = 32  # own commands that may still be on their way back to this node
+# Reliable so that no single command is missed, and best effort to hear who is that himself.
+COMMANDS = (
+    QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE),
+    QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT),
+)
+STANDSTILL = 1.0  # besides a control period: without a tick for so long time does not go on [s]
+REMEMBERED = 32  # own commands that may still be on their way back to this node, twice each
 
 
 class PushController(ManagedNode):
@@ -78,6 +83,7 @@ class PushController(ManagedNode):
         self._time = NodeTime(self)
         self._timer: Timer | None = None
         self._tick: Tick | None = None
+        self._ticked_at = -math.inf  # on the steady clock [s]
         self._sent: deque[tuple[int, int, float]] = deque(maxlen=REMEMBERED)
         self._counted: Counter[str] = Counter()
         self._clock_jumped = self.create_guard_condition(self._after_clock_jump)
@@ -104,7 +110,10 @@ class PushController(ManagedNode):
                 JointState, 'joint_states', self._on_joint_states, SENSOR_DATA
             ),
             self.create_subscription(PoseStamped, 'contact', self._on_contact, SENSOR_DATA),
-            self.create_subscription(TwistStamped, 'finger/cmd_vel', self._on_command, COMMANDS),
+            *(
+                self.create_subscription(TwistStamped, 'finger/cmd_vel', self._on_command, qos)
+                for qos in COMMANDS
+            ),
         )
         return TransitionCallbackReturn.SUCCESS
 
@@ -181,9 +190,7 @@ class PushController(ManagedNode):
 
     def _on_command(self, message: TwistStamped) -> None:
         stamp = message.header.stamp
-        try:
-            self._sent.remove((stamp.sec, stamp.nanosec, message.twist.linear.x))
-        except ValueError:
+        if (stamp.sec, stamp.nanosec, message.twist.linear.x) not in self._sent:
             self._counted['commands of another node'] += 1
             self._control.notice_another_command()
 
@@ -195,8 +202,11 @@ class PushController(ManagedNode):
 
     def _on_tick(self) -> None:
         clock = self.get_clock()
-        steady = None if clock.ros_time_is_active else time.monotonic()
-        self._tick = self._control.tick(self._time.now(), steady)
+        if clock.ros_time_is_active:
+            self._tick = self._control.tick(self._time.now())
+        else:
+            self._tick = self._control.tick(*self._time.now_and_steady())
+        self._ticked_at = time.monotonic()
         now = clock.now()
         if self._tick.v_x is not None:
             self._publish_command(now, self._tick.v_x)
@@ -271,6 +281,8 @@ class PushController(ManagedNode):
         }
         if tick.state == STOPPED:
             return Health(ERROR, _words(tick), values)
+        if time.monotonic() - self._ticked_at > STANDSTILL + self._control.period:
+            return Health(WARN, f'{_words(tick)}, but time stands still', values)
         rates = self._diagnostics.rates
         lately = rates['ticks lost'] + rates['commands of another node']
         if tick.state == WAITING or tick.saturated or tick.limited or lately:

@@ -12,6 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
+import itertools
 from types import SimpleNamespace
 
 import pytest
@@ -48,6 +49,34 @@ def test_time_passes_as_on_the_clock(clock, node_time):
     before = node_time.now()
     clock.nanoseconds += 2_250_000_000
     assert node_time.now() - before == pytest.approx(2.25, abs=1e-12)
+
+
+def test_wait_between_the_two_clocks_does_not_look_like_a_jump(clock, node_time, monkeypatch):
+    def later(seconds):
+        steady[0] += seconds
+        clock.nanoseconds += round(seconds * 1e9)
+
+    waits = itertools.cycle([0.0, 0.0, 0.5, 0.0])
+
+    def read_steady():
+        later(next(waits))  # as good as at any other place between the readings
+        return steady[0]
+
+    steady = [7.0]
+    monkeypatch.setattr('tactile_push.nodes.node_time.time.monotonic', read_steady)
+    before = node_time.now_and_steady()
+    later(0.25)
+    after = node_time.now_and_steady()
+    passed = [b - a for a, b in zip(before, after, strict=True)]
+    assert passed[0] == pytest.approx(passed[1], abs=1e-9)
+
+
+def test_steady_clock_does_not_follow_one_that_is_set(clock, node_time):
+    before = node_time.now_and_steady()
+    clock.nanoseconds += 3600 * 10**9
+    after = node_time.now_and_steady()
+    assert after[0] - before[0] == pytest.approx(3600.0, abs=1e-9)
+    assert 0.0 <= after[1] - before[1] < 60.0
 
 
 def test_stamp_is_a_time_of_the_same_clock(clock, node_time):

@@ -101,7 +101,7 @@ class Rig:
         self.nodes.start('push_controller', {'autostart': False, **simulated}, config=file)
         observer = self.observer
         assert observer.change_state('push_controller', Transition.TRANSITION_CONFIGURE)
-        hearing = {'contact': 3, 'finger/cmd_vel': 3, 'push_controller/state': 1}
+        hearing = {'contact': 3, 'finger/cmd_vel': 4, 'push_controller/state': 1}
         observer.wait_for(
             lambda: (
                 self.contacts
