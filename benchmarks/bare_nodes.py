@@ -124,7 +124,8 @@ class BareController(LifecycleNode):
         self._state = self.create_publisher(JointState, 'push_controller/state', 10)
         self.create_subscription(JointState, 'joint_states', lambda message: None, newest)
         self.create_subscription(PoseStamped, 'contact', self._on_contact, newest)
-        self.create_subscription(TwistStamped, 'finger/cmd_vel', lambda message: None, 10)
+        for qos in (10, newest):
+            self.create_subscription(TwistStamped, 'finger/cmd_vel', lambda message: None, qos)
         self.create_service(Trigger, 'push_controller/resume', lambda request, response: response)
         self.create_guard_condition(lambda: None)
         self.create_timer(1.0 / rate, self._on_timer)

@@ -29,9 +29,11 @@ from rclpy.utilities import remove_ros_args
 from tactile_push.nodes.executor import Executor
 from tactile_push.nodes.parameters import ConfigurationError
 
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # by a person, a manager, a terminal
+
 
 def run(node_class: type[Node]) -> int:
-    """Run a node until SIGINT, SIGTERM or the end of its context.
+    """Run a node until SIGINT, SIGTERM, SIGHUP or the end of its context.
 
     The signals are taken here rather than by rclpy, whose handler ends the context before a last
     command could be sent.
@@ -55,8 +57,9 @@ def run(node_class: type[Node]) -> int:
         nonlocal stopping
         stopping = True
 
-    signal.signal(signal.SIGINT, stop)
-    signal.signal(signal.SIGTERM, stop)
+    for signum in SIGNALS:
+        if signum != signal.SIGHUP or signal.getsignal(signum) != signal.SIG_IGN:  # as nohup asks
+            signal.signal(signum, stop)
     set_logger_level('rcl', LoggingSeverity.FATAL)  # it logs what it then also throws
     try:
         foreign = remove_ros_args(sys.argv)[1:]
@@ -85,8 +88,8 @@ def run(node_class: type[Node]) -> int:
         node.destroy_node()
         rclpy.try_shutdown()
         # Python restores its own handlers at exit, and an impatient second signal would show.
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        for signum in SIGNALS:
+            signal.signal(signum, signal.SIG_IGN)
     return 0
 
 

@@ -86,7 +86,7 @@ def running(environment, observer, node, *arguments):
         process.communicate()
 
 
-@pytest.mark.parametrize('signum', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize('signum', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_signal_ends_a_node_in_silence(environment, observer, signum):
     with running(environment, observer, 'contact_geometry') as process:
         process.send_signal(signum)
@@ -97,6 +97,17 @@ def test_signal_ends_a_node_in_silence(environment, observer, signum):
     while 'contact_geometry' in observer.get_node_names():
         assert time.monotonic() < deadline, 'the node stays in the graph'
         time.sleep(0.02)
+
+
+def test_node_that_shall_outlive_its_terminal_does(environment, observer):
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)  # as nohup does; children inherit it
+    try:
+        with running(environment, observer, 'contact_geometry') as process:
+            process.send_signal(signal.SIGHUP)
+            with pytest.raises(subprocess.TimeoutExpired):
+                process.wait(1.0)
+    finally:
+        signal.signal(signal.SIGHUP, before)
 
 
 def test_second_signal_does_not_disturb_the_end(environment, observer):

@@ -96,7 +96,7 @@ def test_deactivated_controller_sends_a_last_zero_and_falls_silent(rig: Rig, obs
     assert rig.commands[said].twist.linear.x == 0.0
 
 
-@pytest.mark.parametrize('stop_signal', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize('stop_signal', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_signal_ends_every_node_in_silence_and_the_last_command_is_zero(
     rig: Rig, observer: Observer, stop_signal
 ):
