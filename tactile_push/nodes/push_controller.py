@@ -58,6 +58,7 @@ COMMANDS = (
     QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE),
     QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT),
 )
+FRAME = 'finger_disk'  # of the contacts
 STANDSTILL = 1.0  # besides a control period: without a tick for so long time does not go on [s]
 REMEMBERED = 32  # own commands that may still be on their way back to this node, twice each
 
@@ -171,6 +172,9 @@ class PushController(ManagedNode):
     def _on_contact(self, message: PoseStamped) -> None:
         rotation = message.pose.orientation
         theta = yaw_of_quaternion(rotation.x, rotation.y, rotation.z, rotation.w)
+        frame = message.header.frame_id
+        if frame and not frame.endswith(FRAME):  # a second finger's may have a prefix
+            theta = math.nan
         if not plausible(theta):
             self._counted['implausible contacts'] += 1
         self._control.feel(theta, self._time.of(message.header.stamp))

@@ -89,10 +89,12 @@ class World:
     def contact(self, theta: float, stamp: Any) -> None:
         self.contact_turned(0.0, math.sin(theta / 2.0), math.cos(theta / 2.0), stamp)
 
-    def contact_turned(self, x: float, z: float, w: float, stamp: Any) -> None:
+    def contact_turned(
+        self, x: float, z: float, w: float, stamp: Any, frame: str = 'finger_disk'
+    ) -> None:
         message = PoseStamped()
         message.header.stamp = stamp
-        message.header.frame_id = 'finger_disk'
+        message.header.frame_id = frame
         orientation = message.pose.orientation
         orientation.x, orientation.z, orientation.w = x, z, w
         self._contacts.publish(message)
@@ -156,6 +158,13 @@ def test_implausible_contact_stops_the_finger_and_plausible_ones_let_it_go_on(
     assert len(pushed) <= 1  # the tick that was under way
     world.wait_for_state('pushing')
     world.check_that_it_resumes_without_a_kick()
+
+
+def test_contact_in_another_frame_stops_the_finger(world: World):
+    world.start()
+    world.contact_turned(0.0, 0.1, 1.0, world.now().to_msg(), frame='finger_base')
+    world.wait_for_state('stopped: implausible contact')
+    world.wait_for_state('pushing')
 
 
 def test_silent_contact_stops_the_finger_and_is_reported_at_once(world: World):
