@@ -13,6 +13,7 @@
 # limitations under the License.
 """Whether the machine itself stood still, which no node can be blamed for."""
 
+import os
 import threading
 import time
 
@@ -20,7 +21,7 @@ NAP = 0.01  # [s]
 
 
 class HoldUps:
-    """Notices when this process gets no processor for a while.
+    """Notices when one of the processors is not there for a while.
 
     Attributes
     ----------
@@ -31,8 +32,12 @@ class HoldUps:
     def __init__(self) -> None:
         self.longest = 0.0
         self._closing = threading.Event()
-        self._thread = threading.Thread(target=self._run, name='hold-ups', daemon=True)
-        self._thread.start()
+        self._threads = [
+            threading.Thread(target=self._run, args=(core,), name='hold-ups', daemon=True)
+            for core in sorted(os.sched_getaffinity(0))
+        ]
+        for thread in self._threads:
+            thread.start()
 
     def restart(self) -> None:
         """Forget what was."""
@@ -41,9 +46,11 @@ class HoldUps:
     def close(self) -> None:
         """End."""
         self._closing.set()
-        self._thread.join()
+        for thread in self._threads:
+            thread.join()
 
-    def _run(self) -> None:
+    def _run(self, core: int) -> None:
+        os.sched_setaffinity(threading.get_native_id(), {core})
         before = time.monotonic()
         while not self._closing.wait(NAP):
             now = time.monotonic()
