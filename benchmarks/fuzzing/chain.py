@@ -24,7 +24,7 @@ READ_PERIOD = 0.02  # [s]
 CONTROL_PERIOD = 0.1  # [s]
 READS_PER_TICK = 5
 WARM_UP = 100_000  # after so many bytes or a tenth of them, memory no longer grows [byte]
-MOST_GROWTH = 50_000  # of memory afterwards [byte]
+MOST_GROWTH = 100_000  # of memory afterwards [byte]
 MOST_AT_ONCE = 1_000_000  # while one read is worked on [byte]
 ROUNDING = 1e-12  # [m/s]
 
