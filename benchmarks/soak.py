@@ -62,7 +62,7 @@ def main() -> int:
     except KeyboardInterrupt:
         return 130
     complaints = report.complaints()
-    print('\n'.join([*report.lines(), *(f'BROKEN      {c}' for c in complaints)]))
+    print('\n'.join([*report.lines(), *(f'BROKEN            {c}' for c in complaints)]))
     if options.json:
         options.json.write_text(json.dumps(report.as_json(), indent=2) + '\n')
     return 1 if complaints else 0

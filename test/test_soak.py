@@ -162,7 +162,7 @@ def test_broken_report_ends_the_command_with_1(script, main, monkeypatch):
     monkeypatch.setattr(script, 'Soak', Broken)
     status, out, _ = main()
     assert status == 1
-    assert 'BROKEN      1 ticks lost outside faults' in out
+    assert 'BROKEN            1 ticks lost outside faults' in out
 
 
 @pytest.mark.parametrize(

@@ -124,13 +124,13 @@ class Report:
         """
         counted = Counter(outcome for _, outcome in self.outcomes)
         return [
-            f'simulated   {self.hours:.2f} h at {self.real_time_factor:.1f} times real time',
-            f'ticks       {self.ticks}, lost {self.ticks_lost} outside faults, '
+            f'simulated         {self.hours:.2f} h at {self.real_time_factor:.1f} times real time',
+            f'ticks             {self.ticks}, lost {self.ticks_lost} outside faults, '
             f'{self.ticks_lost_in_faults} in faults',
-            f'episodes    {len(self.outcomes)}: '
+            f'episodes          {len(self.outcomes)}: '
             + ', '.join(f'{outcome} {count}' for outcome, count in counted.most_common()),
             *(
-                f'{name:12}{samples[0][1]:.1f} MB, at the end {samples[-1][1]:.1f} MB, '
+                f'{name:18}{samples[0][1]:.1f} MB, at the end {samples[-1][1]:.1f} MB, '
                 f'after the warm-up {self.growth(name):+.2f} MB/h'
                 for name, samples in self.memory.items()
                 if samples
