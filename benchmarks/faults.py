@@ -31,6 +31,8 @@ from fault_table.table import Runner, show, write
 from rich.console import Console
 from rich.progress import Progress
 
+WIDTH = 180  # of the table where it is not shown on a terminal: a line a row
+
 
 def main() -> int:
     """Run the table."""
@@ -64,7 +66,7 @@ def main() -> int:
             runner.finish()
     except KeyboardInterrupt:
         return 130
-    show(runner.outcomes, Console())
+    show(runner.outcomes, Console(width=None if sys.stdout.isatty() else WIDTH))
     if options.json:
         write(runner.outcomes, options.json)
     return 0 if all(outcome.held for outcome in runner.outcomes) else 1
