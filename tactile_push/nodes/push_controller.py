@@ -39,6 +39,7 @@ from tactile_push.control import (
     plausible,
 )
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
+from tactile_push.nodes.finger_parameters import make_finger
 from tactile_push.nodes.managed import ManagedNode
 from tactile_push.nodes.node_time import NodeTime
 from tactile_push.nodes.parameters import ConfigurationError, declare
@@ -46,7 +47,6 @@ from tactile_push.nodes.process import run
 from tactile_push.nodes.push_controller_parameters import (
     PARAMETERS,
     make_control,
-    make_finger,
     take_values,
 )
 from tactile_push.tactile import yaw_of_quaternion
@@ -78,9 +78,9 @@ class PushController(ManagedNode):
         self._settings = declare(self, self.PARAMETERS, self._take_parameters)
         try:
             self._control = make_control(self._settings)
-            self._finger = make_finger(self._settings)
         except ValueError as error:
             raise ConfigurationError(f'parameter {error}') from None
+        self._finger = make_finger(self._settings)
         self._time = NodeTime(self)
         self._timer: Timer | None = None
         self._tick: Tick | None = None

@@ -16,8 +16,8 @@
 from types import SimpleNamespace
 
 from tactile_push.control import Limits, PushControl, PushLaw
+from tactile_push.nodes.finger_parameters import LINKS
 from tactile_push.nodes.parameters import Parameter
-from tactile_push.tactile import PlanarFinger
 
 DEFAULT = Limits()
 
@@ -95,33 +95,7 @@ FINGER = (
         'the two moving joints in joint_states',
         read_only=True,
     ),
-    Parameter(
-        'proximal_length',
-        0.06,
-        'm',
-        'distance between the moving joints of the finger',
-        1e-3,
-        1.0,
-        read_only=True,
-    ),
-    Parameter(
-        'distal_length',
-        0.08,
-        'm',
-        'distance from the last joint to the centre of the disk',
-        1e-3,
-        1.0,
-        read_only=True,
-    ),
-    Parameter(
-        'mount_angle',
-        1.5707963267948966,
-        'rad',
-        'angle of the finger at joint angles zero',
-        -6.3,
-        6.3,
-        read_only=True,
-    ),
+    *LINKS,
 )
 PARAMETERS = (
     *LAW,
@@ -147,8 +121,10 @@ def make_control(p: SimpleNamespace) -> PushControl:
     Raises
     ------
     ValueError
-        If the workspace is empty.
+        If the workspace is empty or the finger has not two joints.
     """
+    if not len(p.joint_names) == len(set(p.joint_names)) == 2:
+        raise ValueError(f'joint_names: expected two different names, got {p.joint_names}')
     law = PushLaw(p.kp, p.kd, p.theta_desired, p.phi_min, p.phi_max)
     limits = Limits(workspace_min=p.workspace_min, workspace_max=p.workspace_max)
     control = PushControl(law, p.belt_speed, 1.0 / p.control_rate, limits)
@@ -173,26 +149,3 @@ def take_values(control: PushControl, p: SimpleNamespace) -> None:
     limits.max_ticks_lost = p.max_ticks_lost
     limits.max_speed = p.max_speed
     limits.max_acceleration = p.max_acceleration
-
-
-def make_finger(p: SimpleNamespace) -> PlanarFinger:
-    """Make the finger from the values of the parameters.
-
-    Parameters
-    ----------
-    p : SimpleNamespace
-        The values by name.
-
-    Returns
-    -------
-    PlanarFinger
-        Its two links.
-
-    Raises
-    ------
-    ValueError
-        If it has not two joints.
-    """
-    if not len(p.joint_names) == len(set(p.joint_names)) == 2:
-        raise ValueError(f'joint_names: expected two different names, got {p.joint_names}')
-    return PlanarFinger(p.proximal_length, p.distal_length, p.mount_angle)

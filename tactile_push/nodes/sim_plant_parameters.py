@@ -17,6 +17,7 @@ import math
 from types import SimpleNamespace
 
 from tactile_push.mechanics import Outline, Slider, Support
+from tactile_push.nodes.finger_parameters import LINKS, make_finger
 from tactile_push.nodes.parameters import Parameter
 from tactile_push.simulation import (
     Belt,
@@ -27,7 +28,6 @@ from tactile_push.simulation import (
     UnevenFriction,
     Workspace,
 )
-from tactile_push.tactile import PlanarFinger
 
 RIG = (
     Parameter(
@@ -95,33 +95,7 @@ RIG = (
         1.0,
         read_only=True,
     ),
-    Parameter(
-        'proximal_length',
-        0.06,
-        'm',
-        'distance between the moving joints of the finger',
-        1e-3,
-        1.0,
-        read_only=True,
-    ),
-    Parameter(
-        'distal_length',
-        0.08,
-        'm',
-        'distance from the last joint to the centre of the disk',
-        1e-3,
-        1.0,
-        read_only=True,
-    ),
-    Parameter(
-        'mount_angle',
-        1.5707963267948966,
-        'rad',
-        'angle of the finger at joint angles zero',
-        -6.3,
-        6.3,
-        read_only=True,
-    ),
+    *LINKS,
     Parameter('sensor_rate', 50.0, 'Hz', 'readings a second', 1.0, 1000.0, read_only=True),
     Parameter(
         'command_timeout',
@@ -266,7 +240,7 @@ def rig_config(p: SimpleNamespace) -> RigConfig:
         d,
         p.belt_speed,
         p.finger_radius,
-        PlanarFinger(p.proximal_length, p.distal_length, p.mount_angle),
+        make_finger(p),
     )
 
 
