@@ -29,6 +29,7 @@ sys.path.insert(0, str(BENCHMARKS))
 
 from soaking.episodes import DESIRED, HOME, MOST, episodes, next_desired  # noqa: E402
 from soaking.report import Report  # noqa: E402
+from soaking.run import Soak  # noqa: E402
 
 
 @pytest.fixture
@@ -170,3 +171,23 @@ def test_broken_report_ends_the_command_with_1(script, main, monkeypatch):
 )
 def test_bad_usage_ends_the_command_with_2(main, arguments):
     assert main(*arguments)[0] == 2
+
+
+class Clumsy(Soak):
+    """A run in which the object is lost once."""
+
+    def _outcome(self, episode):
+        outcome = super()._outcome(episode)
+        if self._plants == 1:
+            self._go_on('contact silent')
+        return outcome
+
+
+def test_lost_object_is_put_back_and_the_run_goes_on():
+    report = Clumsy(0.035, 1).run()
+    assert report.complaints() == []
+    assert report.ticks_lost == 0
+    assert report.hours >= 0.035
+    assert set(report.memory) >= {'sim_plant 1', 'sim_plant 2'}
+    times = [time for time, _ in report.memory['push_controller']]
+    assert times == sorted(times)

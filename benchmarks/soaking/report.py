@@ -18,10 +18,11 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 MOST_GROWTH = 1.0  # of a process's memory [MB/h of simulated time]
 NOISE = 1.0  # by which memory may differ at any time [MB]
-WARM_UP = 0.2  # share of the run, at its beginning, whose memory does not count
+WARM_UP = 0.2  # share of a process's life, at its beginning, whose memory does not count
 
 
 @dataclass
@@ -69,11 +70,15 @@ class Report:
         float
             By least squares [MB/h]; 0 if there is too little to tell.
         """
-        samples = np.array(self.memory[process])
-        samples = samples[samples[:, 0] >= WARM_UP * self.hours]
+        samples = self._warm(process)
         if len(samples) < 3:
             return 0.0
         return float(np.polyfit(samples[:, 0], samples[:, 1], 1)[0])
+
+    def _warm(self, process: str) -> npt.NDArray[np.float64]:
+        """Give the samples of a process after its own warm-up."""
+        samples = np.array(self.memory[process])
+        return samples[round(WARM_UP * len(samples)) :]
 
     def complaints(self) -> list[str]:
         """Say what is not as it must be.
@@ -86,8 +91,8 @@ class Report:
         found = list(self.broken)
         for process in self.memory:
             growth = self.growth(process)
-            span = (1.0 - WARM_UP) * self.hours
-            if growth > MOST_GROWTH and growth * span > NOISE:
+            times = self._warm(process)[:, 0]
+            if growth > MOST_GROWTH and growth * np.ptp(times) > NOISE:
                 found.append(f'{process}: memory grows by {growth:.2f} MB/h')
         if self.ticks_lost:
             found.append(f'{self.ticks_lost} ticks lost outside faults')

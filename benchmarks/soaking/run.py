@@ -16,6 +16,7 @@
 import math
 import os
 import random
+import signal
 import tempfile
 import time
 from collections.abc import Callable
@@ -41,6 +42,8 @@ PLANT = {
     'publish_clock': True,
     'real_time_factor': 100.0,
     'mu_c': 0.5,
+    # For so long time waits for a node of which the machine has no time to think.
+    'command_timeout': 5.0,
 }
 STALLED = 30.0  # without a tick for so long the run is over [s of wall time]
 LOOK = 36.0  # between looks at the memory [s of simulated time]
@@ -73,6 +76,8 @@ class Soak:
         self._desired = -DESIRED
         self._state: JointState | None = None
         self._start = math.nan
+        self._before = 0.0  # simulated time of the plants before this one [s]
+        self._plants = 0
         self._heard_at = time.monotonic()
         self._faulty_until = -math.inf
         self._settled = 0
@@ -108,27 +113,40 @@ class Soak:
 
     @property
     def _now(self) -> float:
-        """Simulated time since the first tick [s]."""
-        return 0.0 if self._state is None else seconds(self._state.header.stamp) - self._start
+        """Simulated time since the first tick, of all plants together [s]."""
+        if self._state is None:
+            return self._before
+        return self._before + seconds(self._state.header.stamp) - self._start
 
     def _start_nodes(self, device: str) -> None:
         simulated = {'use_sim_time': True}
         self._observer.node.create_subscription(
             JointState, '/push_controller/state', self._on_state, 100
         )
-        self._nodes.start('sim_plant', {'device': device, **PLANT}, config=CONFIG)
+        self._device = device
+        self._start_plant()
         self._nodes.start('sensor_driver', {'device': device, **simulated})
         self._nodes.start('contact_geometry', simulated, config=CONFIG)
         self._nodes.start('push_controller', simulated, config=CONFIG)
         self._wait(lambda: self._state is not None)
 
+    def _start_plant(self) -> None:
+        self._plants += 1
+        parameters = {'device': self._device, **PLANT}
+        self._nodes.start('sim_plant', parameters, config=CONFIG)
+
     def _on_state(self, state: JointState) -> None:
         """Count what a tick tells."""
         report, before = self.report, self._state
         self._heard_at = time.monotonic()
+        stamp = seconds(state.header.stamp)
+        if before is None:
+            self._start = stamp
+        elif stamp < seconds(before.header.stamp):  # the time of another plant
+            self._before = self._now
+            self._start = stamp
         self._state = state
         if before is None:
-            self._start = seconds(state.header.stamp)
             return
         lost = round(field(state, 'ticks_lost') - field(before, 'ticks_lost'))
         if self._now <= self._faulty_until:
@@ -146,7 +164,8 @@ class Soak:
     def _look_at_memory(self) -> None:
         for name, process in self._nodes.running.items():
             memory = resident_megabytes(process.pid)
-            self.report.memory.setdefault(name, []).append((self._now / 3600.0, memory))
+            key = f'{name} {self._plants}' if name == 'sim_plant' else name
+            self.report.memory.setdefault(key, []).append((self._now / 3600.0, memory))
         self._progress(self._now / 3600.0)
 
     def _outcome(self, episode: Episode) -> str:
@@ -166,7 +185,7 @@ class Soak:
             return 'settled'
         if not self._rests:
             return f'not settled, theta = {math.degrees(field(self._state, "theta")):.1f} degrees'
-        reason = STOP_REASONS[int(field(self._state, 'stop_reason'))]
+        reason = self._reason
         self._go_on(reason)
         return f'stopped: {reason}'
 
@@ -179,9 +198,21 @@ class Soak:
 
     def _go_on(self, reason: str) -> None:
         """Do what a person would do about a stop."""
-        if reason in HELD:
-            request = Trigger.Request()
-            self._observer.call(Trigger, '/push_controller/resume', request)
+        if reason not in HELD:  # the object is lost, or the finger at its end: put both back
+            plant = self._nodes.running['sim_plant']
+            plant.send_signal(signal.SIGINT)
+            plant.wait()
+            self._start_plant()
+            self._wait(lambda: self._reason in HELD)  # the new plant's time begins anew
+        self._observer.call(Trigger, '/push_controller/resume', Trigger.Request())
+        self._wait(lambda: not self._reason)
+        self._faulty_until = self._now + AFTERMATH
+
+    @property
+    def _reason(self) -> str:
+        """Why the controller has stopped, if it has."""
+        assert self._state is not None
+        return STOP_REASONS[int(field(self._state, 'stop_reason'))]
 
     def _turn(self, desired: float) -> None:
         self._desired = desired
