@@ -87,7 +87,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     figures.set_defaults(run=_figures)
     options = parser.parse_args(arguments)
-    signal.signal(signal.SIGTERM, _terminate)
+    for signum in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(signum) != signal.SIG_IGN:  # as nohup asks
+            signal.signal(signum, _terminate)
     try:
         status = options.run(options)
         sys.stdout.flush()

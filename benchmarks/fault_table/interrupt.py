@@ -16,11 +16,11 @@
 import signal
 from types import FrameType
 
-SIGNALS = (signal.SIGINT, signal.SIGTERM)
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 def interrupt_once() -> None:
-    """Let the first SIGINT or SIGTERM raise KeyboardInterrupt, and the next ones nothing.
+    """Let the first SIGINT, SIGTERM or SIGHUP raise KeyboardInterrupt, and the next ones nothing.
 
     What has been started is ended on the way out, which an impatient second signal would cut short.
     """

@@ -53,9 +53,9 @@ NO_FAULT = {
 class ContactGeometry(Node):
     """Node: `tactile` and `joint_states` in, `contact` out.
 
-    Its health is an error when no readings come for `PATIENCE`, or when all that came in that time
-    were refused for a fault; a warning while some are refused for a fault, or joint states are of
-    no use; well otherwise, a finger that touches nothing included.
+    Its health is an error when no more readings come for `PATIENCE`, or when all that came in that
+    time were refused for a fault; a warning before the first one, while some are refused for a
+    fault, or joint states are of no use; well otherwise, a finger that touches nothing included.
     """
 
     NAME = 'contact_geometry'
@@ -209,6 +209,8 @@ class ContactGeometry(Node):
         values = {'age of the last reading [s]': f'{self._time.now() - self._stamp:.3f}'}
         if self._finder.pole is not None:
             values['age of the joint state used [s]'] = f'{self._finder.pole.age:.4f}'
+        if not self._counted['readings']:
+            return Health(WARN, 'no readings yet', values)
         if time.monotonic() - self._heard > PATIENCE:
             return Health(ERROR, 'no readings', values)
         if self._heard - self._useful > PATIENCE:

@@ -51,6 +51,8 @@ class Health:
 class Diagnostics:
     """Publishes a node's health, and how often the things happen that it counts.
 
+    An error that is there at a report is logged, once, and so is its end.
+
     Parameters
     ----------
     node : Node
@@ -81,6 +83,7 @@ class Diagnostics:
         self._counted_at = time.monotonic()
         self._looks = 0
         self._level: bytes | None = None
+        self._error_logged = False
         self._message = ''
         self._since = self._counted_at
         self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
@@ -101,7 +104,17 @@ class Diagnostics:
         for name, count in counts.items():
             self.rates[name] = (count - self._counted.get(name, 0)) / elapsed
         self._counted, self._counted_at = counts, now
-        self._publish(self._look())
+        health = self._look()
+        self._publish(health)
+        self._log(health)
+
+    def _log(self, health: Health) -> None:
+        is_error = health.level == ERROR
+        if is_error and not self._error_logged:
+            self._node.get_logger().error(health.message)
+        elif self._error_logged and not is_error:
+            self._node.get_logger().info(health.message)
+        self._error_logged = is_error
 
     def _on_timer(self) -> None:
         self._looks += 1

@@ -287,9 +287,11 @@ class PushController(ManagedNode):
             return Health(ERROR, _words(tick), values)
         if time.monotonic() - self._ticked_at > STANDSTILL + self._control.period:
             return Health(WARN, f'{_words(tick)}, but time stands still', values)
+        others = self.count_publishers('finger/cmd_vel') - 1
+        values['other publishers of finger/cmd_vel'] = others
         rates = self._diagnostics.rates
         lately = rates['ticks lost'] + rates['commands of another node']
-        if tick.state == WAITING or tick.saturated or tick.limited or lately:
+        if tick.state == WAITING or tick.saturated or tick.limited or lately or others > 0:
             return Health(WARN, _words(tick), values)
         return Health(OK, _words(tick), values)
 

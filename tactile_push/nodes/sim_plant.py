@@ -135,15 +135,14 @@ class SimPlant(Node):
             self._v_x = min(max(v_x, -fastest), fastest)
             self._counts['commands too fast'] += self._v_x != v_x
             self._last_command = self._time
-            stamp = Time.from_msg(message.header.stamp).nanoseconds * 1e-9
-            self._pace.command(stamp, self._time)
+            self._pace.command(_seconds(message), self._time)
         if self._clock_publisher is None:
             self._step(self._real_time())
         else:
             self._on_timer()
 
     def _on_contact(self, message: PoseStamped) -> None:
-        self._pace.contact(Time.from_msg(message.header.stamp).nanoseconds * 1e-9)
+        self._pace.contact(_seconds(message))
         self._on_timer()
 
     def _on_timer(self) -> None:
@@ -278,6 +277,11 @@ class SimPlant(Node):
         if not self._rig.touching:
             return WARN, 'finger does not touch the object'
         return OK, 'pushing'
+
+
+def _seconds(message: PoseStamped | TwistStamped) -> float:
+    stamp = message.header.stamp  # rclpy's Time takes no negative ones
+    return stamp.sec + stamp.nanosec * 1e-9
 
 
 def main() -> int:

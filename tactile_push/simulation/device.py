@@ -61,7 +61,10 @@ def serve(device: str) -> DeviceServer:
         If the address or path is in use or not ours.
     """
     if device.startswith('socket:'):
-        return TcpServer(*socket_address(device))
+        host, port = socket_address(device)
+        if port == 0:  # any free one, which no driver would find
+            raise ValueError(f'expected a port from 1 to 65535, got {device!r}')
+        return TcpServer(host, port)
     if not os.path.isabs(device):
         raise ValueError(f'expected socket://host:port or an absolute path, got {device!r}')
     return PseudoTerminal(device)
@@ -87,9 +90,10 @@ class TcpServer:
         try:
             self._listener = socket.create_server((host, port))
         except OSError as error:
-            # Some Pythons say more in strerror, and name resolution has numbers of its own.
-            named = isinstance(error, socket.gaierror)
-            reason = error.strerror if named else os.strerror(error.errno or 0)
+            # Name resolution has numbers of its own, below 0, and Python adds to its words.
+            named = (error.errno or 0) < 0
+            words = str(error.strerror).partition(' (')[0]
+            reason = words if named else os.strerror(error.errno or 0)
             raise OSError(error.errno, f'{host}:{port}: {reason}') from None
         self._listener.setblocking(False)
         self._clients: list[socket.socket] = []

@@ -193,5 +193,5 @@ def socket_address(url: str) -> tuple[str, int]:
     except ValueError:
         host, port = None, None
     if not host or port is None:
-        raise ValueError(f'expected socket://host:port, got {url!r}')
+        raise ValueError(f'expected socket://host:port, a port up to 65535, got {url!r}')
     return host, port

@@ -193,3 +193,31 @@ def test_periodic_report_counts_as_the_last_level(patient):
 
 def test_values_are_empty_unless_given():
     assert dict(Health(OK, 'fine').values) == {}
+
+
+def test_error_is_logged_once_and_so_is_its_end(patient, monkeypatch):
+    logged = []
+    for severity in ('error', 'info'):
+        monkeypatch.setattr(
+            patient.node.get_logger(), severity, lambda text, s=severity: logged.append((s, text))
+        )
+    for health in (
+        Health(OK, 'fine'),
+        Health(ERROR, 'broken'),
+        Health(ERROR, 'broken in another way'),
+        Health(WARN, 'mending'),
+        Health(OK, 'fine'),
+    ):
+        patient.health = health
+        patient.diagnostics.report()
+    assert logged == [('error', 'broken'), ('info', 'mending')]
+
+
+def test_error_that_is_over_by_the_next_report_is_not_logged(patient, monkeypatch):
+    logged = []
+    monkeypatch.setattr(patient.node.get_logger(), 'error', logged.append)
+    patient.health = Health(ERROR, 'a moment')
+    patient.diagnostics.update()
+    patient.health = Health(OK, 'fine')
+    patient.diagnostics.report()
+    assert logged == []

@@ -18,6 +18,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
@@ -97,6 +98,25 @@ def test_signal_ends_a_node_in_silence(environment, observer, signum):
     while 'contact_geometry' in observer.get_node_names():
         assert time.monotonic() < deadline, 'the node stays in the graph'
         time.sleep(0.02)
+
+
+@pytest.mark.parametrize('signum', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize('by_name', [False, True])
+def test_signal_during_the_imports_ends_a_node_in_silence(environment, signum, by_name):
+    script = Path(sys.executable).with_name('sim_plant')
+    process = subprocess.Popen(
+        [str(script)] if by_name else command('sim_plant'),
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    maps = Path(f'/proc/{process.pid}/maps')
+    while 'numpy' not in maps.read_text():  # of what a node imports, among the first
+        assert process.poll() is None
+    process.send_signal(signum)
+    out, err = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, out, err) == (0, '', '')
 
 
 def test_node_that_shall_outlive_its_terminal_does(environment, observer):

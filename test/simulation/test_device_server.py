@@ -263,3 +263,14 @@ def test_close_survives_that_somebody_removed_the_link(path):
 def test_device_of_neither_kind_is_refused_with_what_was_expected(device):
     with pytest.raises(ValueError, match='expected socket://host:port'):
         serve(device)
+
+
+def test_port_that_no_driver_would_find_is_refused():
+    with pytest.raises(ValueError, match='port from 1 to 65535'):
+        serve('socket://127.0.0.1:0')
+
+
+def test_host_that_cannot_be_served_is_named_in_words():
+    with pytest.raises(OSError, match=r'^(?!.*Unknown error).*\[?::1.*54321') as refusal:
+        serve('socket://[::1]:54321')
+    assert 'family' in str(refusal.value) or 'host' in str(refusal.value)

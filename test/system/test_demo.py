@@ -60,7 +60,9 @@ def test_demo_settles_both_rigs_and_leaves_a_picture_and_bags(tmp_path: Path):
         }
 
 
-@pytest.mark.parametrize(('stop_signal', 'status'), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(
+    ('stop_signal', 'status'), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
+)
 def test_interrupted_demo_ends_in_silence_and_leaves_no_process(
     tmp_path: Path, stop_signal: signal.Signals, status: int
 ):

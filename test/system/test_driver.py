@@ -478,7 +478,10 @@ def test_no_reading_without_a_time_to_stamp_it_with(driver: Driver):
     ('device', 'complaint'),
     [
         ('', "expected a path or a URL of pyserial, got ''"),
-        ('socket://127.0.0.1', "expected socket://host:port, got 'socket://127.0.0.1'"),
+        (
+            'socket://127.0.0.1',
+            "expected socket://host:port, a port up to 65535, got 'socket://127.0.0.1'",
+        ),
         ('nonsense://x', "invalid URL, protocol 'nonsense' not known"),
     ],
 )

@@ -14,13 +14,14 @@
 """The plant's faults and what it makes of commands, as a process."""
 
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from conftest import Observer, Rig, field, seconds
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from geometry_msgs.msg import TwistStamped
+from geometry_msgs.msg import PoseStamped, TwistStamped
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
@@ -144,6 +145,27 @@ def test_command_that_is_too_fast_is_bounded_and_counted(plant: Plant):
         lambda: int(plant.report()[2].get('commands too fast', 0)) >= 2,
         'the commands to be counted',
     )
+
+
+def test_stamps_of_before_1970_end_nothing(
+    nodes: NodeProcesses, observer: Observer, tmp_path: Path
+):
+    plant = Plant(nodes, observer, str(tmp_path / 'sensor'), publish_clock=True)
+    contacts = observer.node.create_publisher(PoseStamped, 'contact', 10)
+    message = TwistStamped()
+    message.header.stamp.sec = -5
+    message.twist.linear.x = 0.002
+    contact = PoseStamped(header=message.header)
+
+    def told() -> bool:
+        contacts.publish(contact)
+        plant.commands.publish(message)
+        return field(plant.truth[-1], 'v_x') == 0.002
+
+    observer.wait_for(told, 'the finger to obey')
+    count = len(plant.truth)
+    observer.wait_for(lambda: len(plant.truth) > count + 20, 'time to go on')
+    assert nodes.running['sim_plant'].poll() is None
 
 
 def test_second_publisher_of_commands_is_reported(plant: Plant):

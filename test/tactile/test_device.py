@@ -225,7 +225,9 @@ def test_url_of_a_known_kind_is_good_whether_the_device_is_there_or_not(url):
 )
 def test_socket_without_host_and_port_is_refused_with_what_was_expected(url):
     for refuse in (check_url, socket_address):
-        with pytest.raises(ValueError, match=f'^expected socket://host:port, got {url!r}$'):
+        with pytest.raises(
+            ValueError, match=f'^expected socket://host:port, a port up to 65535, got {url!r}$'
+        ):
             refuse(url)
 
 
