@@ -21,7 +21,6 @@ from launch.actions import (
     DeclareLaunchArgument,
     OpaqueFunction,
     SetEnvironmentVariable,
-    Shutdown,
 )
 from launch.conditions import IfCondition
 from launch.events.process import ProcessExited
@@ -94,9 +93,10 @@ def _check_numbers(context: LaunchContext) -> None:
             raise ValueError(f'argument {name}: expected a number, got {value!r}') from None
 
 
-def _end_with(event: ProcessExited, context: LaunchContext) -> list[Shutdown]:
-    """End the others when a node fails."""
-    return [Shutdown(reason=f'{event.process_name} failed')] if event.returncode else []
+def _end_with(event: ProcessExited, context: LaunchContext) -> None:
+    """End the others when a node fails, and let `ros2 launch` fail as well."""
+    if event.returncode and not context.is_shutdown:
+        raise RuntimeError(f'{event.process_name} failed')
 
 
 def _number(argument: str) -> ParameterValue:
