@@ -179,8 +179,11 @@ class SimPlant(Node):
             if self._time - self._last_command >= self._settings.command_timeout:
                 self._v_x = 0.0
             self._rig.step(self._v_x, step)
-        self._time += step
         self._steps += 1
+        if self._clock_publisher is None:
+            self._time += step
+        else:  # to the nanosecond: a sum would drift away from the timers that follow the clock
+            self._time = self._steps * self._period
         self._publish_clock()
         stamp = self._stamp()
         self._publish_joint_states(stamp)
