@@ -61,7 +61,8 @@ def main() -> int:
             for fault in chosen:
                 progress.update(task, description=fault.name)
                 outcome = runner.run(fault)
-                progress.console.print(f'{outcome.verdict:6}  {fault.name}', highlight=False)
+                words = '; '.join([fault.name, *outcome.broken])
+                progress.console.print(f'{outcome.verdict:6}  {words}', highlight=False)
                 progress.advance(task)
             runner.finish()
     except KeyboardInterrupt:

@@ -134,7 +134,7 @@ class SimPlant(Node):
             fastest = self._settings.max_speed
             self._v_x = min(max(v_x, -fastest), fastest)
             self._counts['commands too fast'] += self._v_x != v_x
-            self._last_command = self._time
+            self._last_command = self._now()
             self._pace.command(_seconds(message), self._time)
         if self._clock_publisher is None:
             self._step(self._real_time())
@@ -165,8 +165,12 @@ class SimPlant(Node):
             if self._awaited is not None and self._pace.contact_overdue:
                 self._send(self._awaited)
 
+    def _now(self) -> float:
+        """Give the time by which a command gets old: not that of a rig that was held up."""
+        return time.monotonic() if self._clock_publisher is None else self._time
+
     def _real_time(self) -> float:
-        """Give the time since it was last asked for."""
+        """Give the time since it was last asked for, for the rig to move by."""
         wall = time.monotonic()
         elapsed, self._last_wall = wall - self._last_wall, wall
         return min(elapsed, LONGEST_STEP)
@@ -176,7 +180,7 @@ class SimPlant(Node):
         if self._last_command is None:
             self._rig.step(0.0, step, belt_running=False)
         else:
-            if self._time - self._last_command >= self._settings.command_timeout:
+            if self._now() - self._last_command >= self._settings.command_timeout:
                 self._v_x = 0.0
             self._rig.step(self._v_x, step)
         self._steps += 1
@@ -269,7 +273,7 @@ class SimPlant(Node):
 
     def _judgement(self) -> tuple[bytes, str]:
         if self._last_command is not None:
-            if self._time - self._last_command >= self._settings.command_timeout:
+            if self._now() - self._last_command >= self._settings.command_timeout:
                 return ERROR, 'no command, finger stopped'
             if self._rig.at_workspace_limit:
                 return ERROR, 'finger at its workspace limit'
