@@ -79,10 +79,8 @@ def generate_launch_description() -> LaunchDescription:
     ]
     # A demonstration is nobody's business on other machines.
     on_this_machine = SetEnvironmentVariable('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    # With shared memory a process that is stopped may hold up another's publishing.
-    not_held_up = SetEnvironmentVariable('FASTDDS_BUILTIN_TRANSPORTS', 'UDPv4')
     check = OpaqueFunction(function=_check_numbers)
-    return LaunchDescription([*arguments, check, on_this_machine, not_held_up, *nodes])
+    return LaunchDescription([*arguments, check, on_this_machine, *nodes])
 
 
 def _check_numbers(context: LaunchContext) -> None:

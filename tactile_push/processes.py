@@ -53,8 +53,6 @@ class NodeProcesses:
         self._folder = folder
         self._domain, self._lock = _claim_domain()
         self.environment = {
-            # With shared memory a process that is stopped may hold up another's publishing.
-            'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4',
             **os.environ,
             'ROS_DOMAIN_ID': str(self._domain),
             'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
