@@ -14,6 +14,7 @@
 """The one process that feeds chains of nodes with numbered readings and hears their last hops."""
 
 import math
+import os
 import random
 import socket
 import subprocess
@@ -33,7 +34,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 
-from tactile_push.processes import NodeProcesses
+from tactile_push.processes import NodeProcesses, loopback
 
 PATIENCE = 60.0  # [s]; a bound on hanging, not an expectation
 BARE_NODES = Path(__file__).with_name('bare_nodes.py')
@@ -91,6 +92,7 @@ class Probe:
     """A node that keeps what it hears as bytes, to be read when nothing is measured any more."""
 
     def __init__(self, domain: int) -> None:
+        os.environ.update(loopback())
         self._context = Context()
         rclpy.init(context=self._context, domain_id=domain)
         self.node = Node('probe', context=self._context, start_parameter_services=False)

@@ -28,6 +28,8 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
+from tactile_push.processes import loopback
+
 SHARE = get_package_share_directory('tactile_push')
 NUMBERS = ('kp', 'kd', 'real_time_factor')
 
@@ -78,9 +80,9 @@ def generate_launch_description() -> LaunchDescription:
         _node('push_controller', config, {'kp': _number('kp'), 'kd': _number('kd')}, simulated),
     ]
     # A demonstration is nobody's business on other machines.
-    on_this_machine = SetEnvironmentVariable('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    on_this_machine = [SetEnvironmentVariable(*variable) for variable in loopback().items()]
     check = OpaqueFunction(function=_check_numbers)
-    return LaunchDescription([*arguments, check, on_this_machine, *nodes])
+    return LaunchDescription([*arguments, check, *on_this_machine, *nodes])
 
 
 def _check_numbers(context: LaunchContext) -> None:

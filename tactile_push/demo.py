@@ -16,7 +16,6 @@
 import math
 import os
 import shutil
-import sys
 import tempfile
 import time
 from collections.abc import Callable
@@ -25,9 +24,9 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from ament_index_python.packages import get_package_share_directory
 
 from tactile_push.bags.states import read_states
+from tactile_push.configuration import config_file
 from tactile_push.control import PUSHING, STATES, settle_step
 from tactile_push.estimation import contact_of_translation
 from tactile_push.plots import plot_history
@@ -171,7 +170,7 @@ def _run_rig(case: RigCase, bag: Path, progress: Callable[[int], None]) -> float
     """Run one rig into a bag and give the time that it took [s]."""
     start = time.monotonic()
     shutil.rmtree(bag, ignore_errors=True)
-    config = _config_file(f'{case.name}.yaml')
+    config = config_file(f'{case.name}.yaml')
     with tempfile.TemporaryDirectory(prefix='tactile_push_') as folder:
         device = os.path.join(folder, 'sensor')
         plant = {
@@ -241,12 +240,3 @@ def _evaluate(
         ticks_lost=ticks_lost,
         wall_seconds=wall_seconds,
     )
-
-
-def _config_file(name: str) -> Path:
-    """Find a parameter file: beside the package in a checkout, else where it was installed."""
-    beside = Path(__file__).resolve().parents[1] / 'config' / name
-    if beside.exists():
-        return beside
-    os.environ.setdefault('AMENT_PREFIX_PATH', sys.prefix)  # what pip installs into
-    return Path(get_package_share_directory('tactile_push')) / 'config' / name

@@ -13,6 +13,7 @@
 # limitations under the License.
 """Nodes as processes: a domain of their own, parameters as the command line takes them, the end."""
 
+import contextlib
 import fcntl
 import math
 import os
@@ -20,6 +21,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
@@ -27,7 +29,7 @@ rclpy = pytest.importorskip('rclpy')
 
 from rclpy.context import Context  # noqa: E402
 
-from tactile_push.processes import DOMAINS, NodeProcesses, yaml_value  # noqa: E402
+from tactile_push.processes import DOMAINS, NodeProcesses, loopback, yaml_value  # noqa: E402
 
 PATIENCE = 60.0  # [s]
 
@@ -53,10 +55,44 @@ def test_environment_keeps_the_nodes_to_themselves(tmp_path, monkeypatch):
     with NodeProcesses(tmp_path) as nodes:
         assert nodes.domain in DOMAINS
         assert nodes.environment['ROS_DOMAIN_ID'] == str(nodes.domain)
-        assert nodes.environment['ROS_AUTOMATIC_DISCOVERY_RANGE'] == 'LOCALHOST'
+        assert nodes.environment.items() >= loopback().items()
         assert nodes.environment['ROS_LOG_DIR'].startswith(str(tmp_path))
         assert nodes.environment['A_VARIABLE'] == 'kept'
         assert os.environ['ROS_DOMAIN_ID'] == '77'
+
+
+def sockets_of(process):
+    """Give the local addresses of a process's TCP and UDP sockets, as the kernel writes them."""
+    inodes = set()
+    for file in Path(f'/proc/{process.pid}/fd').iterdir():
+        with contextlib.suppress(FileNotFoundError):  # closed meanwhile
+            inodes.add(os.readlink(file).removeprefix('socket:[').rstrip(']'))
+    return [
+        line.split()[1]
+        for table in ('udp', 'udp6', 'tcp', 'tcp6')
+        for line in Path(f'/proc/{process.pid}/net/{table}').read_text().splitlines()[1:]
+        if line.split()[9] in inodes
+    ]
+
+
+def test_nodes_talk_over_the_loopback_and_nothing_else(tmp_path):
+    with NodeProcesses(tmp_path) as nodes:
+        process = nodes.start('contact_geometry')
+        context = Context()
+        rclpy.init(context=context, domain_id=nodes.domain)
+        observer = rclpy.create_node('observer', context=context)
+        wait_for(lambda: 'contact_geometry' in observer.get_node_names())
+        addresses = {address.partition(':')[0] for address in sockets_of(process)}
+        mapped = Path(f'/proc/{process.pid}/maps').read_text()
+        observer.destroy_node()
+        rclpy.shutdown(context=context)
+    assert addresses == {'0100007F'}
+    assert '/dev/shm/fast' not in mapped
+
+
+def test_another_middleware_is_asked_to_stay_on_this_machine(monkeypatch):
+    monkeypatch.setenv('RMW_IMPLEMENTATION', 'rmw_cyclonedds_cpp')
+    assert loopback() == {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'}
 
 
 def test_domains_need_no_port_that_the_system_gives_away():
@@ -138,9 +174,7 @@ def test_node_gets_its_parameters_and_ends_with_the_block(tmp_path):
         assert 'got 7.0' in nodes.log('geometry').read_text()
         nodes.start('contact_geometry', {'use_joint_states': False}, config=config)
         context = Context()
-        with pytest.MonkeyPatch.context() as monkeypatch:
-            monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-            rclpy.init(context=context, domain_id=nodes.domain)
+        rclpy.init(context=context, domain_id=nodes.domain)
         observer = rclpy.create_node('observer', context=context)
         wait_for(lambda: 'contact_geometry' in observer.get_node_names())
         observer.destroy_node()
@@ -257,9 +291,7 @@ def as_rcl_reads_them():
     """Return what rcl makes of all values: those of a node with a command line of them all."""
     arguments = ['--ros-args', '--log-level', 'fatal']
     context = Context()
-    with pytest.MonkeyPatch.context() as monkeypatch:
-        monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-        rclpy.init(context=context)
+    rclpy.init(context=context)
 
     def read(value):
         node = rclpy.create_node(

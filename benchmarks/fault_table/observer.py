@@ -14,6 +14,7 @@
 """The tool's own node: it hears, calls, publishes and waits, all in one thread."""
 
 import contextlib
+import os
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -29,6 +30,8 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.publisher import Publisher
+
+from tactile_push.processes import loopback
 
 from .promise import BrokenPromiseError
 
@@ -63,6 +66,7 @@ class Observer:
     """
 
     def __init__(self, domain: int, name: str = 'fault_table') -> None:
+        os.environ.update(loopback())
         self._context = Context()
         rclpy.init(context=self._context, domain_id=domain)
         self.node = Node(name, context=self._context)

@@ -91,9 +91,8 @@ def use_sim_time():
 
 
 @pytest.fixture
-def graph(monkeypatch, use_sim_time):
+def graph(use_sim_time):
     """Return the two nodes."""
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     graph = Graph(use_sim_time)
     yield graph
     graph.shut_down()

@@ -74,9 +74,7 @@ def message(names, position, sec, nanosec):
 
 @pytest.fixture(scope='module')
 def ros():
-    with pytest.MonkeyPatch.context() as monkeypatch:
-        monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-        rclpy.init(domain_id=random.randint(1, 100))
+    rclpy.init(domain_id=random.randint(1, 100))
     yield
     rclpy.shutdown()
 

@@ -64,9 +64,8 @@ class Patient:
 
 
 @pytest.fixture
-def patient(monkeypatch):
+def patient():
     """Return the node."""
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     patient = Patient()
     yield patient
     patient.executor.shutdown()

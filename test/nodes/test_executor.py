@@ -26,9 +26,8 @@ from tactile_push.nodes.executor import Executor  # noqa: E402
 
 
 @pytest.fixture
-def node(monkeypatch):
+def node():
     """Make a node in the process's own context, which the executor takes."""
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     rclpy.init(domain_id=random.randint(1, 100), signal_handler_options=SignalHandlerOptions.NO)
     node = rclpy.create_node('alone')
     yield node

@@ -32,7 +32,6 @@ from tactile_push.nodes.parameters import ConfigurationError  # noqa: E402
 @pytest.fixture
 def context(monkeypatch):
     """Make a context that nodes take for that of their process."""
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     context = Context()
     rclpy.init(context=context, domain_id=random.randint(1, 100))
     monkeypatch.setattr('rclpy.node.get_default_context', lambda: context)

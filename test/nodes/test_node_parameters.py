@@ -69,9 +69,7 @@ class Changes:
 def context():
     """Return a private context."""
     context = Context()
-    with pytest.MonkeyPatch.context() as monkeypatch:
-        monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-        rclpy.init(context=context, domain_id=random.randint(1, 100))
+    rclpy.init(context=context, domain_id=random.randint(1, 100))
     yield context
     rclpy.shutdown(context=context)
 

@@ -43,9 +43,7 @@ def environment(tmp_path_factory):
 def observer(environment):
     """Return a node in the domain of the processes, to see which nodes are there."""
     context = Context()
-    with pytest.MonkeyPatch.context() as monkeypatch:
-        monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-        rclpy.init(context=context, domain_id=int(environment['ROS_DOMAIN_ID']))
+    rclpy.init(context=context, domain_id=int(environment['ROS_DOMAIN_ID']))
     node = rclpy.create_node('observer', context=context)
     yield node
     node.destroy_node()

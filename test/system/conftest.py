@@ -13,7 +13,6 @@
 # limitations under the License.
 """Real nodes as processes, and an observer in the test's own process."""
 
-import os
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -30,8 +29,6 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 
 from tactile_push.processes import NodeProcesses
-
-os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
 
 CONFIG = Path(__file__).resolve().parents[2] / 'config'
 PATIENCE = 60.0  # [s]; a bound on hanging, not an expectation
