@@ -127,7 +127,8 @@ def test_only_nodes_and_the_recorder_need_ros():
 
 def test_nothing_but_nodes_imports_nodes_and_nothing_the_command():
     for name, path in MODULES.items():
-        assert 'cli' not in parts_imported(path), name
+        if name.split('.')[0] != 'cli':
+            assert 'cli' not in parts_imported(path), name
         if name.split('.')[0] != 'nodes':
             assert 'nodes' not in parts_imported(path), name
 
