@@ -24,7 +24,7 @@ from pathlib import Path
 
 import pytest
 
-from tactile_push.nodes.parameters import Parameter
+from tactile_push.configuration import Parameter
 from tactile_push.tactile import NO_CONTACT, Reading, Sentence, SentenceStream, encode
 
 BENCHMARKS = Path(__file__).parents[1] / 'benchmarks'

@@ -22,7 +22,7 @@ from pathlib import Path
 
 import pytest
 
-from tactile_push.nodes.sim_plant_parameters import FAULTS
+from tactile_push.configuration.sim_plant import FAULTS
 
 BENCHMARKS = Path(__file__).parents[1] / 'benchmarks'
 sys.path.insert(0, str(BENCHMARKS))

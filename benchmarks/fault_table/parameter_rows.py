@@ -26,8 +26,8 @@ from rcl_interfaces.srv import GetParameters
 from rclpy.node import Node
 from rclpy.parameter import Parameter as RosParameter
 
+from tactile_push.configuration import Parameter
 from tactile_push.nodes.contact_geometry import ContactGeometry
-from tactile_push.nodes.parameters import Parameter
 from tactile_push.nodes.push_controller import PushController
 from tactile_push.nodes.sensor_driver import SensorDriver
 from tactile_push.nodes.sim_plant import SimPlant

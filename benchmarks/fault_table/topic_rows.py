@@ -225,6 +225,11 @@ def two_controllers(rig: Rig) -> None:
         arguments=tuple(word for argument in arguments for word in ('-r', argument)),
     )
     rig.observer.reach_state(SECOND, State.PRIMARY_STATE_INACTIVE)
+    # Nobody hears a publisher that he has not found yet.
+    rig.observer.wait_for(
+        lambda: finger.count('push_controller', 'other publishers of finger/cmd_vel'),
+        'the controller to find the other',
+    )
     at = time.monotonic()
     rig.observer.reach_state(SECOND, State.PRIMARY_STATE_ACTIVE)
     rig.stopped(at)

@@ -18,7 +18,7 @@ import random
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from tactile_push.nodes.sim_plant_parameters import FAULTS
+from tactile_push.configuration.sim_plant import FAULTS
 
 DESIRED = math.radians(10.0)  # the object is turned to either side
 HOME = -0.06  # where the finger starts, in finger_base [m]

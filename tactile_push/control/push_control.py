@@ -66,6 +66,10 @@ class Tick:
         Ticks of the law since activation, this one included.
     ticks_lost : int
         Control periods since activation that passed without a tick.
+    elapsed : float
+        Time since the last tick on a clock that cannot be set [s]; NaN if that is not known.
+    finger_age : float
+        Time since the finger was at that position [s]; NaN if there is none.
     """
 
     state: str
@@ -79,6 +83,8 @@ class Tick:
     finger_x: float
     ticks: int
     ticks_lost: int
+    elapsed: float
+    finger_age: float
 
 
 class PushControl:
@@ -132,8 +138,31 @@ class PushControl:
         self._limited = False
         self._ticks = 0
         self._ticks_lost = 0
-        self._last_tick = self._last_steady = math.nan
+        self._last_tick = self._elapsed = math.nan
         self._forget(now)
+
+    def continue_from(self, tick: Tick, now: float) -> None:
+        """Go on where another control has pushed, as if its last tick had been made here.
+
+        Parameters
+        ----------
+        tick : Tick
+            A tick of the other, in which it pushed on a new contact.
+        now : float
+            Time of that tick [s].
+        """
+        self.activate(now)
+        self.law.reset(tick.phi)
+        self.law.update(tick.theta)
+        self._v_x = tick.v_x or 0.0
+        self._contact.take(tick.theta, now - tick.silence)
+        self._contact.fresh(now, math.inf)
+        self.locate_finger(tick.finger_x, now - tick.finger_age)
+        self._finger.fresh(now, math.inf)
+        self._finger_was_known |= self._finger.known
+        self.state = PUSHING
+        self._ticks, self._ticks_lost = tick.ticks, tick.ticks_lost
+        self._last_tick = now
 
     def deactivate(self) -> Tick:
         """Rest until the next activation.
@@ -190,7 +219,7 @@ class PushControl:
             Time after the jump [s].
         """
         self._forget(now)
-        self._last_tick = self._last_steady = math.nan
+        self._last_tick = math.nan
         self._hold(CLOCK_JUMPED)
 
     def resume(self) -> bool:
@@ -206,22 +235,23 @@ class PushControl:
         self._rest(CONTACT_SILENT)
         return True
 
-    def tick(self, now: float, steady: float | None = None) -> Tick:
+    def tick(self, now: float, elapsed: float = math.nan) -> Tick:
         """Decide on the finger's velocity for the next control period.
 
         Parameters
         ----------
         now : float
             Time of the tick [s], on the clock of the contacts' stamps.
-        steady : float, optional
-            The same on a clock that cannot be set [s], if time is not simulated.
+        elapsed : float, optional
+            Time since the last tick on a clock that cannot be set [s]; NaN for the first tick, and
+            if time is simulated.
 
         Returns
         -------
         Tick
             What to command and why.
         """
-        self._count(now, steady)
+        self._count(now, elapsed)
         felt = self._contact.fresh(now, self.limits.contact_timeout)
         self._finger.fresh(now, self.limits.joint_state_timeout)
         self._finger_was_known |= self._finger.known
@@ -289,25 +319,25 @@ class PushControl:
         if self.state in (PUSHING, STOPPED) and self._reason not in HELD:
             self._rest(reason)
 
-    def _count(self, now: float, steady: float | None) -> None:
+    def _count(self, now: float, elapsed: float) -> None:
         """Count the ticks, and stop if too many are missing or the clock was set."""
-        elapsed = now - self._last_tick
-        if steady is not None:
-            elapsed_steadily = steady - self._last_steady
-            jumped = abs(elapsed - elapsed_steadily) > self.period
-            elapsed = elapsed_steadily
+        self._elapsed = elapsed
+        passed = now - self._last_tick
+        if math.isnan(elapsed):
+            jumped = passed < 0.0
         else:
-            jumped = elapsed < 0.0
+            jumped = abs(passed - elapsed) > self.period
+            if not math.isnan(passed):  # there was a tick before
+                passed = elapsed
         if jumped:
             self.notice_clock_jump(now)
-        if elapsed > 0.0:  # there was a tick before
-            lost = max(0, round(elapsed / self.period) - 1)
+        if passed > 0.0:
+            lost = max(0, round(passed / self.period) - 1)
             self._ticks_lost += lost
             if lost > self.limits.max_ticks_lost:
                 self._hold(TICKS_LOST)
         self._ticks += 1
         self._last_tick = now
-        self._last_steady = math.nan if steady is None else steady
 
     def _forget(self, now: float) -> None:
         """Forget all that was felt."""
@@ -333,4 +363,6 @@ class PushControl:
             self._finger.value,
             self._ticks,
             self._ticks_lost,
+            self._elapsed,
+            now - self._finger.stamp if self._finger.known else math.nan,
         )

@@ -13,6 +13,7 @@
 # limitations under the License.
 """Turns the sensor's angles and the finger's joint angles into the contact."""
 
+import math
 import sys
 import time
 from collections import Counter
@@ -22,22 +23,16 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 
+from tactile_push.configuration.contact_geometry import PARAMETERS, make_finder, take_values
+from tactile_push.messages import ContactMessage, reading_state
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.node_time import NodeTime
-from tactile_push.nodes.parameters import ConfigurationError, Parameter, declare
+from tactile_push.nodes.parameters import ConfigurationError, declare
 from tactile_push.nodes.process import run
-from tactile_push.tactile import (
-    JUMP_TOLERANCE,
-    MAX_THETA_RATE,
-    ContactFinder,
-    Reading,
-    ReadingRejectedError,
-    quaternion_of_yaw,
-)
+from tactile_push.tactile import NO_CONTACT, Reading, ReadingRejectedError
 
 SENSOR_DATA = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
 PATIENCE = 0.5  # without a reading, or without one that is of use, before it is an error [s]
-NO_CONTACT = 'no contact'
 # What is counted and no reason to worry. A finger in the air is no fault. What came twice did no
 # harm; on simulated time, which stands still now and then, it is common.
 NO_FAULT = {
@@ -45,7 +40,7 @@ NO_FAULT = {
     'contacts',
     'joint states',
     'joint states of other joints',
-    f'rejected: {NO_CONTACT}',
+    'rejected: no contact',
     'rejected: not newer',
 }
 
@@ -53,99 +48,32 @@ NO_FAULT = {
 class ContactGeometry(Node):
     """Node: `tactile` and `joint_states` in, `contact` out.
 
+    What it used and gave for each reading goes to `contact_geometry/state`, if anybody listens.
+
     Its health is an error when no more readings come for `PATIENCE`, or when all that came in that
     time were refused for a fault; a warning before the first one, while some are refused for a
     fault, or joint states are of no use; well otherwise, a finger that touches nothing included.
     """
 
     NAME = 'contact_geometry'
-    PARAMETERS = (
-        Parameter('finger_radius', 0.0135, 'm', "effective radius of the finger's disk", 1e-4, 1.0),
-        Parameter(
-            'use_joint_states',
-            True,
-            '',
-            'take the direction of the finger tip from joint_states; otherwise it is mount_angle',
-            read_only=True,
-        ),
-        Parameter(
-            'mount_angle',
-            1.5707963267948966,
-            'rad',
-            'angle of the finger tip in finger_base at joint angles zero',
-            -6.3,
-            6.3,
-        ),
-        Parameter(
-            'joint_names',
-            ['proximal_joint', 'distal_joint'],
-            '',
-            'the moving joints in joint_states whose angles add up to the direction of the tip',
-            read_only=True,
-        ),
-        Parameter(
-            'joint_state_timeout',
-            0.1,
-            's',
-            'largest time between a reading and the joint state used for it',
-            0.001,
-            10.0,
-        ),
-        Parameter(
-            'max_out_of_plane',
-            0.2,
-            '',
-            'largest size of cos(elevation) sin(azimuth), by which the direction of a contact '
-            'sticks out of the plane of motion',
-            0.001,
-            1.0,
-        ),
-        Parameter(
-            'detectable_range',
-            1.5707963267948966,
-            'rad',
-            'largest angle between the pole and a contact that the sensor detects properly; pi/2 '
-            'is the whole hemisphere',
-            0.01,
-            1.6,
-        ),
-        Parameter(
-            'max_theta_rate',
-            MAX_THETA_RATE,
-            'rad/s',
-            'how fast theta can turn; it grows with the speed of the belt',
-            0.01,
-            1000.0,
-        ),
-        Parameter(
-            'jump_tolerance',
-            JUMP_TOLERANCE,
-            'rad',
-            'how far two readings of the same theta may differ; pi refuses no jump',
-            0.001,
-            3.2,
-        ),
-    )
+    PARAMETERS = PARAMETERS
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
         self._settings = p = declare(self, self.PARAMETERS, self._take_parameters)
-        if p.use_joint_states and not p.joint_names:
-            raise ConfigurationError('parameter joint_names: expected the name of a joint, got []')
-        self._finder = ContactFinder(
-            p.finger_radius,
-            joint_state_timeout=p.joint_state_timeout if p.use_joint_states else None,
-        )
-        self._take_parameters()
+        try:
+            self._finder = make_finder(p)
+        except ValueError as error:
+            raise ConfigurationError(f'parameter {error}') from None
         self._time = NodeTime(self)
         self._counted = Counter(readings=0, contacts=0)
         self._stamp = float('nan')  # of the last reading [s]
         self._heard = self._useful = time.monotonic()  # when the last reading, the last useful came
         self._feels = ''  # what the last useful reading said
         self._refusal = ''  # why the last refused one was refused
-        self._pose = PoseStamped()
-        self._pose.header.frame_id = 'finger_disk'
+        self._message = ContactMessage()
         self._publisher = self.create_publisher(PoseStamped, 'contact', 10)
+        self._state = self.create_publisher(JointState, 'contact_geometry/state', 10)
         if p.use_joint_states:
             # Before the readings: the executor serves what has arrived in this order.
             self.create_subscription(JointState, 'joint_states', self._on_joint_states, SENSOR_DATA)
@@ -153,15 +81,7 @@ class ContactGeometry(Node):
         self._diagnostics = Diagnostics(self, self._health, lambda: self._counted)
 
     def _take_parameters(self) -> None:
-        p, finder = self._settings, self._finder
-        finder.radius = p.finger_radius
-        finder.max_out_of_plane = p.max_out_of_plane
-        finder.detectable_range = p.detectable_range
-        finder.mount_angle = p.mount_angle
-        finder.jumps.max_rate = p.max_theta_rate
-        finder.jumps.tolerance = p.jump_tolerance
-        if finder.pole is not None:
-            finder.pole.timeout = p.joint_state_timeout
+        take_values(self._finder, self._settings)
 
     def _on_joint_states(self, message: JointState) -> None:
         names, position = message.name, message.position
@@ -182,24 +102,26 @@ class ContactGeometry(Node):
             self._useful = now  # after a silence patience starts over
         self._heard = now
         self._stamp = self._time.of(message.header.stamp)
+        reading, theta, refusal = NO_CONTACT, math.nan, ''
         try:
-            contact = self._finder.contact(_reading(message), self._stamp)
+            reading = _reading(message)
+            contact = self._finder.contact(reading, self._stamp)
         except ReadingRejectedError as reason:
-            self._refuse(str(reason))
-            return
-        self._useful = now
-        self._feels = 'contact'
-        self._counted['contacts'] += 1
-        pose = self._pose  # one for all: publishing copies it
-        pose.header.stamp = message.header.stamp
-        pose.pose.position.x, pose.pose.position.y = contact.x, contact.y
-        orientation = pose.pose.orientation
-        orientation.z, orientation.w = quaternion_of_yaw(contact.theta)
-        self._publisher.publish(pose)
+            refusal = str(reason)
+            self._refuse(refusal)
+        else:
+            theta = contact.theta
+            self._useful = now
+            self._feels = 'contact'
+            self._counted['contacts'] += 1
+            self._publisher.publish(self._message.of(contact, message.header.stamp))
+        if self._state.get_subscription_count():
+            angle = math.nan if reading is NO_CONTACT else self._finder.joint_angle
+            self._state.publish(reading_state(reading, angle, theta, refusal, message.header.stamp))
 
     def _refuse(self, reason: str) -> None:
         self._counted[f'rejected: {reason}'] += 1
-        if reason == NO_CONTACT:
+        if reason == 'no contact':
             self._useful = self._heard
             self._feels = reason
         else:

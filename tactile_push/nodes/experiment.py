@@ -24,13 +24,15 @@ from rclpy.task import Future
 
 from tactile_push.bags import BagWriter
 from tactile_push.bags.recorder import Recorder
-from tactile_push.nodes.parameters import ConfigurationError, Parameter, declare
+from tactile_push.configuration import Parameter
+from tactile_push.nodes.parameters import ConfigurationError, declare
 from tactile_push.nodes.process import run
 
 TOPICS = (
     'tactile',
     'joint_states',
     'contact',
+    'contact_geometry/state',
     'finger/cmd_vel',
     'push_controller/state',
     'ground_truth/object_pose',

@@ -18,15 +18,14 @@ import time
 from builtin_interfaces.msg import Time
 from rclpy.node import Node
 
+from tactile_push.stamps import epoch_of, seconds_since
+
 AT_ONCE = 1e-3  # in which two clocks are read, unless something comes in between [s]
 TRIES = 10
 
 
 class NodeTime:
-    """Gives times in seconds since the node's start.
-
-    A float has no room for the nanoseconds of a time since 1970; two readings of one read differ
-    by one.
+    """Gives times in seconds since an epoch close by, see `tactile_push.stamps`.
 
     Parameters
     ----------
@@ -36,27 +35,28 @@ class NodeTime:
 
     def __init__(self, node: Node) -> None:
         self._clock = node.get_clock()
-        self._epoch = self._clock.now().nanoseconds // 10**9
+        self._epoch = 0
 
     def now(self) -> float:
         """Give the present time [s]."""
-        nanoseconds = self._clock.now().nanoseconds - self._epoch * 10**9
-        return nanoseconds * 1e-9
+        return self.of(self._clock.now().to_msg())
 
-    def now_and_steady(self) -> tuple[float, float]:
-        """Give the present time [s], and the same on a clock that cannot be set [s].
+    def now_and_steady(self) -> tuple[Time, float]:
+        """Give the present time, and the same on a clock that cannot be set [s].
 
         If this process had to wait between the two they are read again: the wait would look like
         a clock that was set.
         """
         for _ in range(TRIES):
             before = time.monotonic()
-            now = self.now()
+            now = self._clock.now()
             steady = time.monotonic()
             if steady - before < AT_ONCE:
                 break
-        return now, steady
+        return now.to_msg(), steady
 
     def of(self, stamp: Time) -> float:
         """Give the time of a message's stamp [s]."""
-        return stamp.sec - self._epoch + stamp.nanosec * 1e-9
+        if not self._epoch:  # simulated time, which may not run yet, starts at 0
+            self._epoch = epoch_of(self._clock.now().nanoseconds // 10**9)
+        return seconds_since(self._epoch, stamp.sec, stamp.nanosec)

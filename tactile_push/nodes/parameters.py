@@ -14,9 +14,7 @@
 """One declaration a parameter: type, default, unit, range, description."""
 
 import difflib
-import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
 
@@ -31,73 +29,41 @@ from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.exceptions import ParameterException
 from rclpy.node import Node
 
+from tactile_push.configuration import Parameter
+
 
 class ConfigurationError(Exception):
     """A node cannot start as it was asked to; the message is for the person who asked."""
 
 
-@dataclass(frozen=True)
-class Parameter:
-    """A parameter of a node.
+def descriptor(parameter: Parameter) -> ParameterDescriptor:
+    """Give the descriptor that `ros2 param describe` shows.
 
     Parameters
     ----------
-    name : str
-        Its name.
-    default : bool, int, float, str or list
-        Its value unless somebody says otherwise; the type of all its values.
-    unit : str
-        Unit for people, '' if there is none.
-    description : str
-        What it is, in a few words.
-    lower, upper : float or int, optional
-        Closed range of a number; a whole number needs both.
-    choices : tuple of str, optional
-        All values that a text may have.
-    read_only : bool, optional
-        Whether it is fixed once the node runs.
+    parameter : Parameter
+        A parameter of a node.
+
+    Returns
+    -------
+    ParameterDescriptor
+        Its description, unit and range.
     """
-
-    name: str
-    default: Any
-    unit: str
-    description: str
-    lower: float = -math.inf
-    upper: float = math.inf
-    choices: tuple[str, ...] = ()
-    read_only: bool = False
-
-    def expected(self) -> str:
-        """Say what a value has to be."""
-        if self.choices:
-            return 'one of ' + ', '.join(self.choices)
-        kind = {bool: 'true or false', int: 'a whole number', float: 'a number', str: 'a text'}.get(
-            type(self.default), 'a list of texts'
-        )
-        unit = f' [{self.unit}]' if self.unit else ''
-        if type(self.default) is float:
-            kind = 'a number with a decimal point'
-        if isinstance(self.default, bool) or not isinstance(self.default, int | float):
-            return kind + unit
-        return f'{kind}{unit} from {self.lower:g} to {self.upper:g}'
-
-    def descriptor(self) -> ParameterDescriptor:
-        """Give the descriptor that `ros2 param describe` shows."""
-        unit = f' [{self.unit}]' if self.unit else ''
-        descriptor = ParameterDescriptor(
-            name=self.name, description=self.description + unit, read_only=self.read_only
-        )
-        if self.choices:
-            descriptor.additional_constraints = self.expected()
-        if isinstance(self.default, float):
-            descriptor.floating_point_range = [
-                FloatingPointRange(from_value=float(self.lower), to_value=float(self.upper))
-            ]
-        elif isinstance(self.default, int) and not isinstance(self.default, bool):
-            descriptor.integer_range = [
-                IntegerRange(from_value=int(self.lower), to_value=int(self.upper))
-            ]
-        return descriptor
+    unit = f' [{parameter.unit}]' if parameter.unit else ''
+    described = ParameterDescriptor(
+        name=parameter.name, description=parameter.description + unit, read_only=parameter.read_only
+    )
+    if parameter.choices:
+        described.additional_constraints = parameter.expected()
+    if isinstance(parameter.default, float):
+        described.floating_point_range = [
+            FloatingPointRange(from_value=float(parameter.lower), to_value=float(parameter.upper))
+        ]
+    elif isinstance(parameter.default, int) and not isinstance(parameter.default, bool):
+        described.integer_range = [
+            IntegerRange(from_value=int(parameter.lower), to_value=int(parameter.upper))
+        ]
+    return described
 
 
 def declare(
@@ -153,7 +119,7 @@ def declare(
     for parameter in parameters:
         try:
             value = node.declare_parameter(
-                parameter.name, parameter.default, parameter.descriptor()
+                parameter.name, parameter.default, descriptor(parameter)
             ).value
         except ParameterException:
             given = overrides[parameter.name].value

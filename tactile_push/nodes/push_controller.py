@@ -18,37 +18,36 @@ import sys
 import time
 from collections import Counter, deque
 
+from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from rclpy.clock import Clock, JumpThreshold, TimeJump
 from rclpy.clock_type import ClockType
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from rclpy.qos import QoSProfile, ReliabilityPolicy
-from rclpy.time import Time
 from rclpy.timer import Timer
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
+from tactile_push.configuration.finger import make_finger
+from tactile_push.configuration.push_controller import (
+    PARAMETERS,
+    make_control,
+    take_values,
+)
 from tactile_push.control import (
     HELD,
-    STATES,
-    STOP_REASONS,
     STOPPED,
     WAITING,
     Tick,
     plausible,
 )
+from tactile_push.messages import FINGER_DISK, tick_state, velocity_command
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
-from tactile_push.nodes.finger_parameters import make_finger
 from tactile_push.nodes.managed import ManagedNode
 from tactile_push.nodes.node_time import NodeTime
 from tactile_push.nodes.parameters import ConfigurationError, declare
 from tactile_push.nodes.process import run
-from tactile_push.nodes.push_controller_parameters import (
-    PARAMETERS,
-    make_control,
-    take_values,
-)
 from tactile_push.tactile import yaw_of_quaternion
 
 # Deep enough that no bad message hides behind a good one.
@@ -58,7 +57,6 @@ COMMANDS = (
     QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE),
     QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT),
 )
-FRAME = 'finger_disk'  # of the contacts
 STANDSTILL = 1.0  # besides a control period: without a tick for so long time does not go on [s]
 REMEMBERED = 32  # own commands that may still be on their way back to this node, twice each
 
@@ -122,6 +120,7 @@ class PushController(ManagedNode):
         """Start the law."""
         result = super().on_activate(state)
         self._control.activate(self._time.now())
+        self._steady = math.nan  # when it ticked last, on a clock that cannot be set [s]
         self._start_timer()
         return result
 
@@ -173,7 +172,7 @@ class PushController(ManagedNode):
         rotation = message.pose.orientation
         theta = yaw_of_quaternion(rotation.x, rotation.y, rotation.z, rotation.w)
         frame = message.header.frame_id
-        if frame and not frame.endswith(FRAME):  # a second finger's may have a prefix
+        if frame and not frame.endswith(FINGER_DISK):  # a second finger's may have a prefix
             theta = math.nan
         if not plausible(theta):
             self._counted['implausible contacts'] += 1
@@ -207,46 +206,20 @@ class PushController(ManagedNode):
     def _on_tick(self) -> None:
         clock = self.get_clock()
         if clock.ros_time_is_active:
-            self._tick = self._control.tick(self._time.now())
+            stamp, elapsed = clock.now().to_msg(), math.nan
         else:
-            self._tick = self._control.tick(*self._time.now_and_steady())
+            stamp, steady = self._time.now_and_steady()
+            elapsed, self._steady = steady - self._steady, steady
+        self._tick = self._control.tick(self._time.of(stamp), elapsed)
         self._ticked_at = time.monotonic()
-        now = clock.now()
         if self._tick.v_x is not None:
-            self._publish_command(now, self._tick.v_x)
-        self._publish_state(now, self._tick)
+            self._publish_command(stamp, self._tick.v_x)
+        self._state.publish(tick_state(self._tick, self._control.law, stamp))
         self._diagnostics.update()
 
-    def _publish_command(self, now: Time, v_x: float) -> None:
-        command = TwistStamped()
-        stamp = now.to_msg()
-        command.header.stamp = stamp
-        command.header.frame_id = 'finger_base'
-        command.twist.linear.x = v_x
+    def _publish_command(self, stamp: Time, v_x: float) -> None:
         self._sent.append((stamp.sec, stamp.nanosec, v_x))
-        self._command.publish(command)
-
-    def _publish_state(self, now: Time, tick: Tick) -> None:
-        law = self._control.law
-        fields = {
-            'theta': tick.theta,
-            'theta_desired': law.theta_desired,
-            'phi': tick.phi,
-            'v_x': float('nan') if tick.v_x is None else tick.v_x,
-            'kp': law.kp,
-            'kd': law.kd,
-            'silence': tick.silence,
-            'saturated': float(tick.saturated),
-            'limited': float(tick.limited),
-            'finger_x': tick.finger_x,
-            'state': float(STATES.index(tick.state)),
-            'stop_reason': float(STOP_REASONS.index(tick.stop_reason)),
-            'ticks': float(tick.ticks),
-            'ticks_lost': float(tick.ticks_lost),
-        }
-        message = JointState(name=list(fields), position=list(fields.values()))
-        message.header.stamp = now.to_msg()
-        self._state.publish(message)
+        self._command.publish(velocity_command(v_x, stamp))
 
     def _stop(self) -> None:
         """Send a last zero command, say so, and wait until the finger has it."""
@@ -256,9 +229,9 @@ class PushController(ManagedNode):
         self._timer = None
         self._counted = self._counts()
         self._tick = None
-        now = self.get_clock().now()
-        self._publish_command(now, 0.0)
-        self._publish_state(now, self._control.deactivate())
+        stamp = self.get_clock().now().to_msg()
+        self._publish_command(stamp, 0.0)
+        self._state.publish(tick_state(self._control.deactivate(), self._control.law, stamp))
         self._command.wait_for_all_acked(Duration(seconds=0.1))
 
     def _counts(self) -> Counter[str]:

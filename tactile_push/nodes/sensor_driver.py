@@ -21,9 +21,10 @@ from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from rclpy.time import Time
 from sensor_msgs.msg import JointState
 
+from tactile_push.configuration import Parameter
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.managed import ManagedNode
-from tactile_push.nodes.parameters import ConfigurationError, Parameter, declare
+from tactile_push.nodes.parameters import ConfigurationError, declare
 from tactile_push.nodes.process import run
 from tactile_push.tactile import Reading
 from tactile_push.tactile.device import check_url

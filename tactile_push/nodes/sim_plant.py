@@ -31,11 +31,11 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
+from tactile_push.configuration.sim_plant import PARAMETERS, faults, faults_on, rig_config
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.markers import rig_markers
 from tactile_push.nodes.parameters import ConfigurationError, declare
 from tactile_push.nodes.process import run
-from tactile_push.nodes.sim_plant_parameters import PARAMETERS, faults, faults_on, rig_config
 from tactile_push.simulation import Readout, Rig, serve
 from tactile_push.simulation.pace import Pace
 from tactile_push.tactile import Reading, Sentence, encode, quaternion_of_yaw

@@ -13,7 +13,7 @@
 # limitations under the License.
 """The tactile sensor: from its bytes to a contact in the plane of motion (Section V.A)."""
 
-from tactile_push.tactile.contact_finder import ContactFinder
+from tactile_push.tactile.contact_finder import REFUSALS, ContactFinder
 from tactile_push.tactile.finger import FingerPose, OutOfReachError, PlanarFinger, pole_angle
 from tactile_push.tactile.hemisphere import (
     Contact,
@@ -34,6 +34,7 @@ __all__ = [
     'JUMP_TOLERANCE',
     'MAX_THETA_RATE',
     'NO_CONTACT',
+    'REFUSALS',
     'Contact',
     'ContactFinder',
     'FingerPose',

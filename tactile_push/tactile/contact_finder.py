@@ -22,6 +22,21 @@ from tactile_push.tactile.jumps import JUMP_TOLERANCE, MAX_THETA_RATE, JumpGuard
 from tactile_push.tactile.pole_history import BELIEVED, PoleHistory
 from tactile_push.tactile.reading import Reading
 
+REFUSALS = (  # the reasons by which readings are refused; '' for none
+    '',
+    'not newer',
+    'no joint state',
+    'stale joint state',
+    'direction of the finger unknown',
+    'no contact',
+    'off the hemisphere',
+    'beyond the detectable range',
+    'out of plane',
+    'isolated jump',
+    'no azimuth and elevation',
+    'negative stamp',
+)
+
 
 class ContactFinder:
     """Finds the contact that each reading tells of, and refuses readings that tell of none.
@@ -64,6 +79,9 @@ class ContactFinder:
         Refuses jumps; its bounds may be changed.
     pole : PoleHistory or None
         The finger tip's direction in the past; None if it does not turn.
+    joint_angle : float
+        By how far the joints had turned the tip at the moment of the last reading [rad]; NaN if
+        that was not looked at or not known.
     """
 
     def __init__(
@@ -82,6 +100,7 @@ class ContactFinder:
         self.mount_angle = mount_angle
         self.jumps = JumpGuard(max_theta_rate, jump_tolerance)
         self.pole = None if joint_state_timeout is None else PoleHistory(joint_state_timeout)
+        self.joint_angle = math.nan
         self._newest = -math.inf
         self._newest_late = -math.inf
         self._late = 0
@@ -104,7 +123,7 @@ class ContactFinder:
         """
         return self.pole is not None and self.pole.record(stamp, pole_angle(0.0, angles))
 
-    def contact(self, reading: Reading, stamp: float) -> Contact:
+    def contact(self, reading: Reading, stamp: float, joint_angle: float | None = None) -> Contact:
         """Find the contact that a reading tells of.
 
         Parameters
@@ -113,6 +132,9 @@ class ContactFinder:
             The sensor's azimuth and elevation [rad].
         stamp : float
             When the sensor was read [s].
+        joint_angle : float, optional
+            By how far the joints had turned the tip then [rad], if it is known otherwise than
+            through `joints`; NaN if it is known that nobody knew.
 
         Returns
         -------
@@ -126,11 +148,13 @@ class ContactFinder:
             'stale joint state', 'no contact', 'off the hemisphere', 'beyond the detectable range',
             'out of plane' or 'isolated jump'.
         """
+        self.joint_angle = math.nan
         self._check_order(stamp)
-        psi = self.mount_angle
-        if self.pole is not None:
-            psi += self.pole.at(stamp)
+        self.joint_angle = self._joint_angle(stamp) if joint_angle is None else joint_angle
+        if math.isnan(self.joint_angle):
+            raise ReadingRejectedError('no joint state')
         self._newest = stamp
+        psi = self.mount_angle + self.joint_angle
         try:
             contact = contact_of_reading(
                 reading, psi, self.radius, self.max_out_of_plane, self.detectable_range
@@ -140,6 +164,9 @@ class ContactFinder:
             raise
         self.jumps.check(stamp, contact.theta)
         return contact
+
+    def _joint_angle(self, stamp: float) -> float:
+        return 0.0 if self.pole is None else self.pole.at(stamp)
 
     def _check_order(self, stamp: float) -> None:
         if self._newest < stamp < math.inf:

@@ -430,10 +430,10 @@ def test_a_clock_that_is_set_is_seen_against_one_that_cannot_be(jump):
     running = pushing(10.0)
     running.tick(10.125, 0.125)
     running.feel(0.1, 10.25)
-    assert running.tick(10.25, 0.25).state == PUSHING
+    assert running.tick(10.25, 0.125).state == PUSHING
     running.feel(0.1, 10.375 + jump)
 
-    tick = running.tick(10.375 + jump, 0.375)
+    tick = running.tick(10.375 + jump, 0.125)
 
     assert (tick.state, tick.stop_reason, tick.v_x) == (STOPPED, CLOCK_JUMPED, 0.0)
     assert tick.ticks_lost == 0
@@ -444,7 +444,7 @@ def test_a_clock_that_is_adjusted_by_less_than_a_period_does_no_harm():
     running.tick(10.125, 0.125)
     for k, shift in ((2, 0.03125), (3, -0.03125), (4, 0.0)):
         running.feel(0.1, 10.0 + k * PERIOD + shift)
-        tick = running.tick(10.0 + k * PERIOD + shift, k * PERIOD)
+        tick = running.tick(10.0 + k * PERIOD + shift, PERIOD)
         assert (tick.state, tick.ticks_lost) == (PUSHING, 0)
 
 
@@ -472,11 +472,11 @@ def test_a_clock_that_goes_back_before_the_first_contact_changes_nothing():
 @pytest.mark.parametrize('steady', [False, True])
 def test_more_ticks_lost_than_allowed_stop_the_finger_until_it_is_resumed(lost, state, steady):
     running = pushing(10.0, contact_timeout=1000.0)
-    running.tick(10.125, 0.125 if steady else None)
+    running.tick(10.125)
     late = 0.125 + (lost + 1) * PERIOD
     running.feel(0.1, 10.0 + late)
 
-    tick = running.tick(10.0 + late, late if steady else None)
+    tick = running.tick(10.0 + late, late - 0.125 if steady else math.nan)
 
     assert (tick.state, tick.ticks_lost) == (state, lost)
     if state == STOPPED:
@@ -763,3 +763,40 @@ def test_whatever_comes_the_command_is_bounded_and_rests_unless_it_pushes(events
             assert not tick.finger_x >= 0.105
         assert math.radians(33.0) <= tick.phi <= math.radians(147.0)
         before = v_x
+
+
+def test_a_tick_tells_how_old_the_position_of_the_finger_is():
+    running = pushing(10.0)
+    assert math.isnan(running.tick(10.125).finger_age)
+    running.locate_finger(0.01, 10.125)
+    running.feel(0.1, 10.25)
+    assert running.tick(10.25).finger_age == 0.125
+
+
+def test_a_tick_tells_what_the_clock_that_cannot_be_set_said():
+    running = pushing(10.0)
+    assert math.isnan(running.tick(10.125).elapsed)
+    assert running.tick(10.25, 0.1250001).elapsed == 0.1250001
+
+
+@checked
+@given(
+    thetas=st.lists(st.floats(-1.2, 1.2), min_size=8, max_size=20),
+    x=st.sampled_from([math.nan, 0.0, 0.02]),
+    middle=st.integers(2, 5),
+)
+def test_another_control_can_go_on_where_one_has_pushed(thetas, x, middle):
+    first = control(max_speed=0.004, max_acceleration=0.02)
+    ticks = []
+    second = control(max_speed=0.004, max_acceleration=0.02)
+    for k, theta in enumerate(thetas):
+        now = 10.0 + k * PERIOD
+        for running in (first, second):
+            running.locate_finger(x, now - 0.0625)
+            running.feel(theta, now - 0.03125)
+        ticks.append(first.tick(now))
+        if k == middle:
+            second.continue_from(ticks[-1], now)
+        elif k > middle:
+            assert repr(second.tick(now)) == repr(ticks[-1])  # in which NaN is NaN
+    assert ticks[middle].state == PUSHING

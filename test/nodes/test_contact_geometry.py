@@ -29,6 +29,7 @@ from sensor_msgs.msg import JointState  # noqa: E402
 from tactile_push.nodes import contact_geometry  # noqa: E402
 from tactile_push.nodes.contact_geometry import ContactGeometry  # noqa: E402
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN  # noqa: E402
+from tactile_push.tactile import REFUSALS  # noqa: E402
 
 PROPERTY = settings(derandomize=True, deadline=None, max_examples=100)
 AHEAD = math.pi / 2.0
@@ -44,6 +45,11 @@ class Bench:
         self.node = ContactGeometry()
         self.sent = []
         self.node._publisher = SimpleNamespace(publish=self._keep)
+        self.listeners = 0
+        self.told = []
+        self.node._state = SimpleNamespace(
+            publish=self.told.append, get_subscription_count=lambda: self.listeners
+        )
 
     def _keep(self, pose):
         stamp, place, turn = pose.header.stamp, pose.pose.position, pose.pose.orientation
@@ -304,3 +310,36 @@ def test_radius_takes_effect_at_once(bench):
     bench.node.set_parameters([RosParameter('finger_radius', value=0.02)])
     bench.read()
     assert bench.sent[0][3] == pytest.approx(0.02)
+
+
+def told(bench):
+    return [dict(zip(m.name, m.position, strict=True)) for m in bench.told]
+
+
+def test_what_a_reading_gave_is_told_to_those_who_listen_only(bench):
+    bench.turn(position=(0.2, 0.1))
+    bench.read()
+    assert not bench.told
+    bench.listeners = 1
+    bench.read(nanosec=1000)
+    (state,) = told(bench)
+    assert (state['azimuth'], state['elevation']) == (0.0, AHEAD)
+    assert state['joint_angle'] == pytest.approx(0.3, rel=1e-14)
+    assert state['theta'] == pytest.approx(0.3, rel=1e-12)
+    assert REFUSALS[int(state['refusal'])] == ''
+    assert (bench.told[0].header.stamp.sec, bench.told[0].header.stamp.nanosec) == (bench.sec, 1000)
+
+
+def test_why_a_reading_was_refused_is_told(bench):
+    bench.listeners = 1
+    bench.read()
+    bench.turn(nanosec=1000)
+    bench.read(nanosec=1000, position=(math.nan, math.nan))
+    bench.read(nanosec=2000, names=('azimuth',), position=(0.0,))
+    assert [REFUSALS[int(state['refusal'])] for state in told(bench)] == [
+        'no joint state',
+        'no contact',
+        'no azimuth and elevation',
+    ]
+    assert all(math.isnan(state['theta']) for state in told(bench))
+    assert [math.isnan(state['joint_angle']) for state in told(bench)] == [True, False, True]

@@ -27,7 +27,12 @@ from rclpy.context import Context  # noqa: E402
 from rclpy.parameter import Parameter as RosParameter  # noqa: E402
 from rclpy.parameter import parameter_value_to_python  # noqa: E402
 
-from tactile_push.nodes.parameters import ConfigurationError, Parameter, declare  # noqa: E402
+from tactile_push.configuration import Parameter  # noqa: E402
+from tactile_push.nodes.parameters import (  # noqa: E402
+    ConfigurationError,
+    declare,
+    descriptor,
+)
 
 NODES = {
     'sensor_driver': 'SensorDriver',
@@ -128,25 +133,25 @@ def test_default_lies_within_its_own_range_and_choices(parameter):
 
 @pytest.mark.parametrize('parameter', DECLARED)
 def test_descriptor_tells_unit_range_and_whether_it_is_fixed(parameter):
-    descriptor = parameter.descriptor()
-    assert descriptor.name == parameter.name
-    assert descriptor.description.startswith(parameter.description)
+    described = descriptor(parameter)
+    assert described.name == parameter.name
+    assert described.description.startswith(parameter.description)
     assert len(parameter.description) >= 8
-    assert descriptor.read_only is parameter.read_only
+    assert described.read_only is parameter.read_only
     if parameter.unit:
-        assert descriptor.description.endswith(f' [{parameter.unit}]')
+        assert described.description.endswith(f' [{parameter.unit}]')
     if isinstance(parameter.default, float):
-        (bounds,) = descriptor.floating_point_range
+        (bounds,) = described.floating_point_range
         assert (bounds.from_value, bounds.to_value) == (parameter.lower, parameter.upper)
-        assert not descriptor.integer_range
+        assert not described.integer_range
     elif type(parameter.default) is int:
-        (bounds,) = descriptor.integer_range
+        (bounds,) = described.integer_range
         assert (bounds.from_value, bounds.to_value) == (parameter.lower, parameter.upper)
     else:
-        assert not descriptor.floating_point_range
-        assert not descriptor.integer_range
+        assert not described.floating_point_range
+        assert not described.integer_range
     for choice in parameter.choices:
-        assert choice in descriptor.additional_constraints
+        assert choice in described.additional_constraints
 
 
 # Quantities without a unit: shares, counts and coefficients.

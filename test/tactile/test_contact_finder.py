@@ -13,18 +13,22 @@
 # limitations under the License.
 """Contacts from readings and joint angles as they come, and what is refused (Section V.A)."""
 
+import ast
 import contextlib
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import tactile_push
 from tactile_push.control import PushLaw, finger_velocity
 from tactile_push.simulation import Rig, paper_block
 from tactile_push.tactile import (
     NO_CONTACT,
+    REFUSALS,
     ContactFinder,
     Reading,
     ReadingRejectedError,
@@ -357,3 +361,40 @@ def test_same_events_give_the_same_outcome(events):
         return said
 
     assert run() == run()
+
+
+def test_every_reason_by_which_a_reading_is_refused_has_a_number():
+    said = set()
+    for file in Path(tactile_push.__file__).parent.rglob('*.py'):
+        for node in ast.walk(ast.parse(file.read_text())):
+            raised = isinstance(node, ast.Call) and getattr(node.func, 'id', '')
+            if raised == 'ReadingRejectedError' and isinstance(node.args[0], ast.Constant):
+                said.add(node.args[0].value)
+    assert said >= REASONS
+    assert said == set(REFUSALS[1:])
+    assert REFUSALS[0] == ''
+
+
+def test_joint_angle_that_is_known_otherwise_counts_and_nothing_is_asked_of_the_past():
+    turned = math.radians(12.0)
+    by_history = ContactFinder(RADIUS, joint_state_timeout=0.1)
+    by_history.joints(1.0, [turned])
+    known = ContactFinder(RADIUS, joint_state_timeout=0.1)
+    expected = by_history.contact(at(20.0), 1.0)
+    assert known.contact(at(20.0), 1.0, turned) == expected
+    assert known.joint_angle == by_history.joint_angle == turned
+
+
+def test_joint_angle_that_nobody_knew_is_no_measure_for_the_next_reading():
+    finder = ContactFinder(RADIUS, joint_state_timeout=0.1)
+    with pytest.raises(ReadingRejectedError, match='no joint state'):
+        finder.contact(at(20.0), 5.0, math.nan)
+    assert math.isnan(finder.joint_angle)
+    assert math.degrees(finder.contact(at(20.0), 1.0, 0.0).theta) == pytest.approx(20.0)
+
+
+def test_finger_that_does_not_turn_has_turned_by_nothing():
+    finder = ContactFinder(RADIUS)
+    assert math.isnan(finder.joint_angle)
+    finder.contact(at(20.0), 1.0)
+    assert finder.joint_angle == 0.0

@@ -15,9 +15,9 @@
 
 from types import SimpleNamespace
 
+from tactile_push.configuration.finger import LINKS
+from tactile_push.configuration.parameter import Parameter
 from tactile_push.control import Limits, PushControl, PushLaw
-from tactile_push.nodes.finger_parameters import LINKS
-from tactile_push.nodes.parameters import Parameter
 
 DEFAULT = Limits()
 

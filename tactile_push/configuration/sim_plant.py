@@ -16,9 +16,9 @@
 import math
 from types import SimpleNamespace
 
+from tactile_push.configuration.finger import LINKS, make_finger
+from tactile_push.configuration.parameter import Parameter
 from tactile_push.mechanics import Outline, Slider, Support
-from tactile_push.nodes.finger_parameters import LINKS, make_finger
-from tactile_push.nodes.parameters import Parameter
 from tactile_push.simulation import (
     Belt,
     Faults,

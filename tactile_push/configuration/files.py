@@ -33,7 +33,7 @@ def config_file(name: str) -> Path:
     path
         The file beside the package in a checkout, else where it was installed.
     """
-    beside = Path(__file__).resolve().parents[1] / 'config' / name
+    beside = Path(__file__).resolve().parents[2] / 'config' / name
     if beside.exists():
         return beside
     os.environ.setdefault('AMENT_PREFIX_PATH', sys.prefix)  # what pip installs into

@@ -15,7 +15,7 @@
 
 from types import SimpleNamespace
 
-from tactile_push.nodes.parameters import Parameter
+from tactile_push.configuration.parameter import Parameter
 from tactile_push.tactile import PlanarFinger
 
 LINKS = (

@@ -16,7 +16,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tactile_push.nodes.sim_plant_parameters import FAULTS, PARAMETERS, faults, faults_on
+from tactile_push.configuration.sim_plant import FAULTS, PARAMETERS, faults, faults_on
 from tactile_push.simulation import Faults, Workspace
 
 # A value of each fault, and where it has to arrive.

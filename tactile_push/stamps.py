@@ -1,0 +1,55 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Times in seconds that a float has room for.
+
+A float resolves a time since 1970 to 240 ns only; two readings of one read differ by one. So times
+count from an epoch close by. It is the same for all who take it from about the same time, live or
+from a bag, so that equal stamps give equal numbers.
+"""
+
+LENGTH = 2**20  # of the time that has one epoch [s]: twelve days, in which nanoseconds differ
+
+
+def epoch_of(sec: int) -> int:
+    """Give the epoch for times about a given one.
+
+    Parameters
+    ----------
+    sec : int
+        Seconds since 1970, or since the start of simulated time.
+
+    Returns
+    -------
+    int
+        The epoch [s], on the same clock.
+    """
+    return sec // LENGTH * LENGTH
+
+
+def seconds_since(epoch: int, sec: int, nanosec: int) -> float:
+    """Give the time of a stamp.
+
+    Parameters
+    ----------
+    epoch : int
+        From when on the time counts [s].
+    sec, nanosec : int
+        The stamp [s, ns].
+
+    Returns
+    -------
+    float
+        Time [s].
+    """
+    return sec - epoch + nanosec * 1e-9

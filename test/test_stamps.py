@@ -1,0 +1,40 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tactile_push.stamps import epoch_of, seconds_since
+
+NOW = 1_795_000_000  # some day in 2026 [s]
+
+
+def test_simulated_time_counts_from_its_own_start():
+    assert epoch_of(0) == 0
+    assert seconds_since(0, 3, 250_000_000) == 3.25
+
+
+@given(st.integers(0, 2**31 - 1))
+def test_epoch_is_never_ahead_and_days_away_at_the_most(sec):
+    assert 0 <= sec - epoch_of(sec) < 13 * 24 * 3600
+
+
+@given(st.integers(0, 11 * 24 * 3600), st.integers(0, 999_999_998))
+def test_neighbouring_nanoseconds_are_two_times(later, nanosec):
+    epoch = epoch_of(NOW)
+    sec = NOW + later
+    assert seconds_since(epoch, sec, nanosec) < seconds_since(epoch, sec, nanosec + 1)
+
+
+def test_those_who_start_an_hour_apart_count_alike():
+    assert epoch_of(NOW) == epoch_of(NOW + 3600)
