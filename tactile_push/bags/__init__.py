@@ -17,6 +17,7 @@ Nothing here needs ROS but `tactile_push.bags.recorder`, which is therefore not 
 """
 
 from tactile_push.bags.definitions import schema_text
+from tactile_push.bags.reader import BagError, BagReader, Message, Topic
 from tactile_push.bags.writer import BagWriter
 
-__all__ = ['BagWriter', 'schema_text']
+__all__ = ['BagError', 'BagReader', 'BagWriter', 'Message', 'Topic', 'schema_text']

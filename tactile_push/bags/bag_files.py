@@ -1,0 +1,204 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""What `metadata.yaml` says about a bag, and where its files are without it."""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from tactile_push.bags.mcap_sources import BagError
+
+# libyaml's, where PyYAML has it, is ten times as fast.
+_LOADER = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)
+
+# More than a bag of a thousand files and topics has [bytes].
+_LARGEST = 1 << 24
+
+# The number that rosbag2 gives a file, and its kind.
+_FILE_NAME = re.compile(r'(.*?)(\d*)\.mcap(\.zstd)?')
+
+
+@dataclass(frozen=True)
+class BagMetadata:
+    """The part of rosbag2's metadata that is of use beside the MCAP files.
+
+    Parameters
+    ----------
+    files : tuple of str
+        Names of the files, in their order.
+    message_count : int
+        Messages that were recorded; 0 if that is not known.
+    end : int
+        Last log time [ns].
+    message_compression : str
+        What each message is compressed with; empty if none is.
+    custom_data : dict of str to str
+        Notes on the bag.
+    """
+
+    files: tuple[str, ...] = ()
+    message_count: int = 0
+    end: int = 0
+    message_compression: str = ''
+    custom_data: dict[str, str] = field(default_factory=dict)
+
+
+def load_yaml(text: str) -> Any:
+    """Return what a YAML text says.
+
+    Parameters
+    ----------
+    text : str
+        Anything.
+
+    Returns
+    -------
+    object
+        Lists, dicts, numbers, words.
+
+    Raises
+    ------
+    ValueError
+        If it is no YAML; what PyYAML raises itself has many kinds and lines.
+    """
+    try:
+        return yaml.load(text, Loader=_LOADER)
+    except Exception as error:
+        raise ValueError(' '.join(str(error).split())) from None
+
+
+def parse_metadata(information: Any) -> BagMetadata:
+    """Return what rosbag2 tells about a bag.
+
+    Parameters
+    ----------
+    information : object
+        Content of ``rosbag2_bagfile_information``.
+
+    Returns
+    -------
+    BagMetadata
+        What is of use here.
+
+    Raises
+    ------
+    ValueError
+        If it is something else.
+    """
+    try:
+        is_compressed = str(information.get('compression_mode', '')).lower() == 'message'
+        return BagMetadata(
+            tuple(str(file) for file in information.get('relative_file_paths') or ()),
+            int(information['message_count']),
+            int(information['starting_time']['nanoseconds_since_epoch'])
+            + int(information['duration']['nanoseconds']),
+            str(information.get('compression_format')) if is_compressed else '',
+            {str(key): str(value) for key, value in (information.get('custom_data') or {}).items()},
+        )
+    except (AttributeError, KeyError, TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f'no rosbag2_bagfile_information as expected: {error!r}') from None
+
+
+def read_metadata(folder: Path) -> BagMetadata:
+    """Return what the ``metadata.yaml`` of a bag tells.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder of the bag.
+
+    Returns
+    -------
+    BagMetadata
+        What is of use here.
+
+    Raises
+    ------
+    FileNotFoundError
+        If it has none.
+    OSError, ValueError
+        If it cannot be read or makes no sense.
+    BagError
+        If the bag is stored in another form than MCAP.
+    """
+    with open(folder / 'metadata.yaml', encoding='utf-8') as stream:
+        text = stream.read(_LARGEST + 1)
+    if len(text) > _LARGEST:
+        raise ValueError(f'more than {_LARGEST} characters')
+    content = load_yaml(text)
+    if not isinstance(content, dict) or 'rosbag2_bagfile_information' not in content:
+        raise ValueError('no rosbag2_bagfile_information in it')
+    information = content['rosbag2_bagfile_information']
+    metadata = parse_metadata(information)
+    storage = information.get('storage_identifier')
+    if storage != 'mcap':
+        raise BagError(_foreign(folder, storage))
+    return metadata
+
+
+def find_files(path: Path, metadata: BagMetadata, warn: Callable[[str], None]) -> list[Path]:
+    """Return the files of a bag in their order.
+
+    Parameters
+    ----------
+    path : Path
+        The bag's folder, or its file.
+    metadata : BagMetadata
+        What its ``metadata.yaml`` tells.
+    warn : callable
+        Gets a line for each file that is missing.
+
+    Raises
+    ------
+    BagError
+        If there is none.
+    """
+    if not path.is_dir():
+        if path.suffix == '.db3':
+            raise BagError(_foreign(path, 'sqlite3'))
+        return [path]
+    named = [path / name for name in metadata.files]
+    present = [file for file in named if file.is_file()]
+    for file in named:
+        if file not in present:
+            warn(f'{file}: missing, though metadata.yaml names it')
+    if present:
+        return present
+    files = sorted(
+        (file for file in path.iterdir() if _FILE_NAME.fullmatch(file.name)), key=_by_number
+    )
+    # While rosbag2 compresses a file, both are there.
+    files = [file for file in files if file.suffix == '.mcap' or file.with_suffix('') not in files]
+    if not files:
+        if any(file.suffix == '.db3' for file in path.iterdir()):
+            raise BagError(_foreign(path, 'sqlite3'))
+        raise BagError(f'{path}: no bag, which would have at least one .mcap file')
+    return files
+
+
+def _by_number(file: Path) -> tuple[str, int, str]:
+    match = _FILE_NAME.fullmatch(file.name)
+    assert match is not None
+    return match[1], int(match[2] or -1), file.name
+
+
+def _foreign(path: Path, storage: object) -> str:
+    return (
+        f'{path}: stored as {storage}, expected mcap: '
+        '`ros2 bag convert` with `storage_id: mcap` makes such a bag of it'
+    )

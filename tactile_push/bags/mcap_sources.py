@@ -1,0 +1,165 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Bytes of a bag's files by their place, of files that rosbag2 has compressed too."""
+
+import os
+from pathlib import Path
+from typing import IO, Protocol
+
+import zstandard
+
+# How much is decompressed at once on the way to a place further on [bytes].
+_STEP = 1 << 20
+
+# zstd's own bound on what a frame may demand for its history [bytes].
+_LARGEST_WINDOW = 1 << 27
+
+
+class BagError(Exception):
+    """A bag that cannot be read, or a mistake about one: a line that says where and what."""
+
+
+class Source(Protocol):
+    """A file that is read at any place."""
+
+    @property
+    def size(self) -> int | None:
+        """Size [bytes]; None if that is not known."""
+
+    def read(self, offset: int, length: int) -> bytes:
+        """Return the bytes at a place, fewer where the file ends."""
+
+    def close(self) -> None:
+        """Close the file; it is opened again when it is read."""
+
+
+def open_source(path: Path) -> Source:
+    """Open a file of a bag.
+
+    Parameters
+    ----------
+    path : Path
+        An MCAP file, or one that rosbag2 has compressed (``.mcap.zstd``).
+
+    Returns
+    -------
+    Source
+        Its bytes, uncompressed; `size` is None if that is not known.
+
+    Raises
+    ------
+    BagError
+        If it is not there or must not be read.
+    """
+    return ZstdSource(path) if path.suffix == '.zstd' else FileSource(path)
+
+
+def _open(path: Path) -> IO[bytes]:
+    try:
+        # A pipe would wait for its other end.
+        if path.exists() and not path.is_file():
+            raise BagError(f'{path}: expected an MCAP file, and this is no file')
+        return path.open('rb')
+    except (OSError, ValueError) as error:
+        raise BagError(f'{path}: {getattr(error, "strerror", None) or error}') from None
+
+
+class FileSource:
+    """A file as it is.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._stream: IO[bytes] | None = _open(path)
+        self.size = os.fstat(self._stream.fileno()).st_size
+
+    def read(self, offset: int, length: int) -> bytes:
+        """Return the bytes at a place, fewer where the file ends."""
+        if self._stream is None:
+            self._stream = _open(self._path)
+        # A damaged length would be allocated before the file turns out to be shorter.
+        length = min(length, self.size - offset)
+        if length <= 0:
+            return b''
+        try:
+            self._stream.seek(offset)
+            return self._stream.read(length)
+        except OSError as error:
+            raise BagError(f'{self._path}: {error.strerror or error}') from None
+
+    def close(self) -> None:
+        """Close the file; it is opened again when it is read."""
+        if self._stream is not None:
+            self._stream.close()
+        self._stream = None
+
+
+class ZstdSource:
+    """A file in zstd: quick forwards, from its beginning again backwards.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    """
+
+    size = None
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._file: IO[bytes] | None = None
+        self._position = 0
+        self._rewind()
+
+    def read(self, offset: int, length: int) -> bytes:
+        """Return the bytes at a place, fewer where the file ends or its zstd breaks off."""
+        if self._file is None or offset < self._position:
+            self._rewind()
+        while self._position < offset:
+            if not self._take(min(offset - self._position, _STEP)):
+                return b''
+        parts = []
+        while length > 0 and (part := self._take(min(length, _STEP))):
+            parts.append(part)
+            length -= len(part)
+        return b''.join(parts)
+
+    def close(self) -> None:
+        """Close the file; it is opened again when it is read."""
+        if self._file is not None:
+            self._file.close()
+        self._file = None
+
+    def _rewind(self) -> None:
+        self.close()
+        self._file = _open(self._path)
+        self._stream = zstandard.ZstdDecompressor(max_window_size=_LARGEST_WINDOW).stream_reader(
+            self._file, read_across_frames=True
+        )
+        self._position = 0
+
+    def _take(self, length: int) -> bytes:
+        try:
+            part = self._stream.read(length)
+        except zstandard.ZstdError:
+            return b''
+        except OSError as error:
+            raise BagError(f'{self._path}: {error.strerror or error}') from None
+        self._position += len(part)
+        return part

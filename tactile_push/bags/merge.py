@@ -1,0 +1,134 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Messages of many parts of a bag in order of time, few of them in memory at once."""
+
+import heapq
+from bisect import bisect_left
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from operator import attrgetter
+
+from tactile_push.bags.mcap_file import Message
+
+# What overlapping parts may take together before some are forgotten and read again [bytes].
+_BUDGET = 1 << 25
+
+# What a message takes beside its data, roughly [bytes].
+_OVERHEAD = 200
+
+_BY_LOG_TIME = attrgetter('log_time')
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """Messages that are read at once.
+
+    Parameters
+    ----------
+    start : int
+        No message is older [ns].
+    load : callable
+        Reads them, sorted by log time; the same ones each time.
+    """
+
+    start: int
+    load: Callable[[], list[Message]]
+
+
+def in_order(parts: Sequence[Part]) -> Iterator[Message]:
+    """Return the messages of all parts by log time, and by part where that is equal.
+
+    Parameters
+    ----------
+    parts : sequence of Part
+        The parts. Each is read when time has come to its start.
+
+    Yields
+    ------
+    Message
+        The next one.
+    """
+    waiting = deque(sorted(enumerate(parts), key=lambda part: part[1].start))
+    heap: list[tuple[int, int, _OpenPart]] = []
+    while waiting or heap:
+        if waiting and (not heap or waiting[0][1].start <= heap[0][0]):
+            number, part = waiting.popleft()
+            opened = _OpenPart(part)
+            if opened.size:
+                heapq.heappush(heap, (opened.time, number, opened))
+                _forget_some(heap)
+            continue
+        _, number, opened = heap[0]
+        if not opened.size:
+            opened.read()
+            _forget_some(heap)
+        # Up to here no other part has anything to say.
+        bound = waiting[0][1].start if waiting else 2**64
+        for time, other, _ in heap[1:3]:
+            bound = min(bound, time + (number < other))
+        yield from opened.take(bound)
+        if opened.is_done:
+            heapq.heappop(heap)
+        else:
+            heapq.heapreplace(heap, (opened.time, number, opened))
+
+
+def _forget_some(heap: list[tuple[int, int, '_OpenPart']]) -> None:
+    """Forget the messages that are needed last, if there are too many."""
+    excess = sum(opened.size for _, _, opened in heap) - _BUDGET
+    if excess > 0:
+        for _, _, opened in sorted(heap[1:], reverse=True):
+            excess -= opened.forget()
+            if excess <= 0:
+                break
+
+
+class _OpenPart:
+    """A part of which messages are wanted now."""
+
+    def __init__(self, part: Part) -> None:
+        self._load = part.load
+        self._position = 0
+        self.read()
+        self.time = self._messages[0].log_time if self._messages else 0
+
+    @property
+    def is_done(self) -> bool:
+        """Whether all has been taken."""
+        return self._position >= self._count
+
+    def take(self, bound: int) -> list[Message]:
+        """Return the next messages, those before a time."""
+        messages, start = self._messages, self._position
+        end = self._count
+        if end and messages[-1].log_time >= bound:
+            end = bisect_left(messages, bound, start, key=_BY_LOG_TIME)
+        self._position = end
+        if end < self._count:
+            self.time = messages[end].log_time
+        return messages[start:end]
+
+    def read(self) -> None:
+        """Read the messages."""
+        self._messages = self._load()
+        self._count = len(self._messages)
+        self.size = sum(len(message.data) + _OVERHEAD for message in self._messages)
+
+    def forget(self) -> int:
+        """Give back the memory, until they are read again; return how much it was [bytes]."""
+        size = self.size
+        self._messages = []
+        self.size = 0
+        return size

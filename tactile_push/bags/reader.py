@@ -1,0 +1,365 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Read bags: those of this package and those of `ros2 bag record -s mcap`."""
+
+import io
+import logging
+import os
+from collections import Counter
+from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import redirect_stderr
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from mcap.records import Channel, Schema
+from mcap_ros2.decoder import DecoderFactory
+
+from tactile_push.bags.bag_files import (
+    BagMetadata,
+    find_files,
+    load_yaml,
+    parse_metadata,
+    read_metadata,
+)
+from tactile_push.bags.mcap_contents import Piece
+from tactile_push.bags.mcap_file import McapFile, Message
+from tactile_push.bags.mcap_records import DamageError
+from tactile_push.bags.mcap_sources import BagError
+from tactile_push.bags.merge import Part, in_order
+
+_LOGGER = logging.getLogger('tactile_push.bags')
+
+
+@dataclass(frozen=True)
+class Topic:
+    """A topic of a bag.
+
+    Parameters
+    ----------
+    name : str
+        Full name.
+    type_name : str
+        Message type, such as ``'sensor_msgs/msg/JointState'``.
+    definition : str
+        Text of the schema: the type's definition with those of all its parts.
+    qos : tuple of dict
+        Quality of service that each publisher offered, in the words of rosbag2.
+    type_hash : str
+        Hash of the type after REP-2011; empty if the bag does not have it.
+    """
+
+    name: str
+    type_name: str
+    definition: str
+    qos: tuple[dict, ...]
+    type_hash: str
+
+
+class BagReader:
+    """A bag of this package or of ``ros2 bag record -s mcap``; a context manager.
+
+    It is read as far as it is sound. What is cut off or damaged is left out, and a warning says
+    how much that is.
+
+    Parameters
+    ----------
+    path : str or path
+        Folder of the bag, or one of its files.
+    warn : callable, optional
+        Gets a line for each problem that the bag can be read in spite of. They are logged if it
+        is not given.
+
+    Attributes
+    ----------
+    path : Path
+        Where the bag is.
+    files : list of Path
+        Its files, in their order.
+    topics : dict of str to Topic
+        By name.
+    counts : dict of str to int
+        Messages by topic. A chunk that turns out to be damaged when it is read is counted.
+    start_time, end_time : int
+        First and last log time [ns]; both 0 in an empty bag.
+    notes : dict of str to str
+        Custom data of the bag.
+
+    Raises
+    ------
+    BagError
+        If there is no bag or it cannot be read.
+    """
+
+    def __init__(
+        self, path: str | os.PathLike[str], warn: Callable[[str], None] = _LOGGER.warning
+    ) -> None:
+        self.path = Path(path)
+        self.topics: dict[str, Topic] = {}
+        self.counts: dict[str, int] = {}
+        self.notes: dict[str, str] = {}
+        self._warn = warn
+        self._sources: dict[str, tuple[Channel, Schema | None]] = {}
+        self._decoders: dict[str, Callable[[bytes], Any]] = {}
+        self._damaged: set[tuple[Path, int]] = set()
+        try:
+            metadata = self._metadata()
+            files = find_files(self.path, metadata, warn)
+        except OSError as error:
+            raise BagError(f'{self.path}: {error.strerror or error}') from None
+        self._files = self._open_files(files)
+        self.files = [file.path for file in self._files]
+        self._topic_names = [self._take_topics(file) for file in self._files]
+        filled = [file.contents for file in self._files if file.contents.counts]
+        self.start_time = min((contents.start for contents in filled), default=0)
+        self.end_time = max((contents.end for contents in filled), default=0)
+        self._compressed = [self._take_notes(file, metadata) for file in self._files]
+        self.notes.update(metadata.custom_data)
+        self._compare(metadata)
+
+    def messages(
+        self,
+        topics: Collection[str] | None = None,
+        start: int | None = None,
+        end: int | None = None,
+    ) -> Iterator[Message]:
+        """Read messages in order of their log time, whatever their order in the bag.
+
+        Parameters
+        ----------
+        topics : collection of str, optional
+            Names of the topics; all if it is not given. A topic that is not there has no messages.
+        start, end : int, optional
+            First log time, and the one before which reading ends [ns].
+
+        Returns
+        -------
+        iterator of Message
+            The messages, read as they are asked for; those of one time in the order of the bag.
+
+        Raises
+        ------
+        BagError
+            If a file cannot be read any more.
+        """
+        start = 0 if start is None else start
+        end = 2**64 if end is None else end
+        parts = []
+        unread: Counter[int] = Counter()
+        for number, (file, names) in enumerate(zip(self._files, self._topic_names, strict=True)):
+            if topics is not None:
+                names = {channel: name for channel, name in names.items() if name in topics}
+            load = partial(self._load, unread, number, names, start, end)
+            for piece in file.contents.pieces:
+                # Without an index it is not known which channels a chunk has.
+                wanted = not piece.channels or not names.keys().isdisjoint(piece.channels)
+                if wanted and piece.end >= start and piece.start < end:
+                    unread[number] += 1
+                    parts.append(Part(piece.start, partial(load, piece)))
+        try:
+            yield from in_order(parts)
+        finally:
+            self._close()
+
+    def decode(self, message: Message) -> Any:
+        """Decode a message by the schema in the bag.
+
+        Parameters
+        ----------
+        message : Message
+            A message of this bag.
+
+        Returns
+        -------
+        object
+            With the fields of the message as attributes.
+
+        Raises
+        ------
+        BagError
+            If it does not decode.
+        """
+        decoder = self._decoders.get(message.topic) or self._make_decoder(message.topic)
+        try:
+            return decoder(message.data)
+        except Exception as error:  # mcap_ros2 checks nothing, so anything may come
+            seconds = (message.log_time - self.start_time) * 1e-9
+            raise BagError(
+                f'{self.path}: the message of {message.topic} at {seconds:.6f} s does not decode '
+                f'as {self.topics[message.topic].type_name}: {_one_line(error)}'
+            ) from None
+
+    def __enter__(self) -> 'BagReader':
+        """Return the bag, which is closed at the end of the block."""
+        return self
+
+    def __exit__(
+        self,
+        error_type: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        """Close the files."""
+        self._close()
+
+    def _close(self) -> None:
+        for file in self._files:
+            file.close()
+
+    def _metadata(self) -> BagMetadata:
+        if not self.path.is_dir():
+            return BagMetadata()
+        try:
+            return read_metadata(self.path)
+        except FileNotFoundError:
+            return BagMetadata()
+        except (OSError, ValueError) as error:
+            self._warn(f'{self.path / "metadata.yaml"}: not used: {_one_line(error)}')
+            return BagMetadata()
+
+    def _open_files(self, paths: list[Path]) -> list[McapFile]:
+        files = []
+        errors = []
+        for path in paths:
+            try:
+                files.append(McapFile(path, self._warn))
+            except BagError as error:
+                errors.append(error)
+        if not files:
+            raise errors[0]
+        for left_out in errors:
+            self._warn(f'{left_out}; left out')
+        return files
+
+    def _take_topics(self, file: McapFile) -> dict[int, str]:
+        """Add the topics of a file; return their names by its channels."""
+        names = {}
+        contents = file.contents
+        for number, channel in contents.channels.items():
+            schema = contents.schemas.get(channel.schema_id)
+            type_name = '' if schema is None else schema.name
+            topic = self.topics.get(channel.topic)
+            if topic is None:
+                self._sources[channel.topic] = (channel, schema)
+                self.topics[channel.topic] = Topic(
+                    channel.topic,
+                    type_name,
+                    '' if schema is None else schema.data.decode(errors='replace'),
+                    self._qos(channel),
+                    channel.metadata.get('topic_type_hash', ''),
+                )
+            elif topic.type_name != type_name:
+                self._warn(
+                    f'{file.path}: {contents.counts[number]} messages of {channel.topic} are left '
+                    f'out: of type {type_name}, expected {topic.type_name}'
+                )
+                continue
+            names[number] = channel.topic
+            self.counts.setdefault(channel.topic, 0)
+            self.counts[channel.topic] += contents.counts[number]
+        return names
+
+    def _qos(self, channel: Channel) -> tuple[dict, ...]:
+        try:
+            profiles = load_yaml(channel.metadata.get('offered_qos_profiles', '')) or []
+            if not isinstance(profiles, list) or not all(isinstance(qos, dict) for qos in profiles):
+                raise ValueError('no list of mappings')
+        except ValueError as error:
+            self._warn(f'{self.path}: quality of service of {channel.topic} not used: {error}')
+            profiles = []
+        return tuple(profiles)
+
+    def _take_notes(self, file: McapFile, metadata: BagMetadata) -> bool:
+        """Add the notes in a file; return whether its messages are compressed."""
+        compression = metadata.message_compression
+        for record in file.contents.metadata:
+            if record.name == 'tactile_push':
+                self.notes.update(record.metadata)
+                continue
+            try:
+                own = parse_metadata(load_yaml(record.metadata.get('serialized_metadata', '')))
+            except ValueError as error:
+                self._warn(f'{file.path}: metadata of rosbag2 not used: {error}')
+                continue
+            self.notes.update(own.custom_data)
+            compression = own.message_compression
+        if compression not in ('', 'zstd'):
+            raise BagError(f'{file.path}: messages compressed by {compression}, expected zstd')
+        return compression != ''
+
+    def _compare(self, metadata: BagMetadata) -> None:
+        count = sum(self.counts.values())
+        if metadata.message_count > count:
+            seconds = max(metadata.end - self.end_time, 0) * 1e-9
+            self._warn(
+                f'{self.path}: {metadata.message_count - count} of the '
+                f'{metadata.message_count} messages that metadata.yaml tells of are missing, '
+                f'{seconds:.3f} s at the end'
+            )
+
+    def _load(
+        self,
+        unread: Counter[int],
+        number: int,
+        names: Mapping[int, str],
+        start: int,
+        end: int,
+        piece: Piece,
+    ) -> list[Message]:
+        file = self._files[number]
+        try:
+            messages = file.messages(piece, names, start, end, self._compressed[number])
+        except DamageError as error:
+            messages = []
+            if (file.path, piece.offset) not in self._damaged:
+                self._damaged.add((file.path, piece.offset))
+                first, last = ((time - self.start_time) * 1e-9 for time in (piece.start, piece.end))
+                self._warn(
+                    f'{file.path}: damaged at byte {piece.offset} ({error}): {piece.length} bytes '
+                    f'with the messages from {first:.3f} s to {last:.3f} s are left out'
+                )
+        # A bag may have more files than a process may open.
+        unread[number] -= 1
+        if not unread[number]:
+            file.close()
+        return messages
+
+    def _make_decoder(self, topic: str) -> Callable[[bytes], Any]:
+        if topic not in self.topics:
+            raise BagError(f'{self.path}: no topic {topic}')
+        channel, schema = self._sources[topic]
+        try:
+            # mcap_ros2's parser prints what it raises, too.
+            with redirect_stderr(io.StringIO()):
+                decoder = DecoderFactory().decoder_for(channel.message_encoding, schema)
+        except Exception as error:  # as above
+            raise BagError(
+                f'{self.path}: the definition of {self.topics[topic].type_name} for {topic} makes '
+                f'no sense: {_one_line(error)}'
+            ) from None
+        if decoder is None:
+            schema_encoding = '' if schema is None else schema.encoding
+            raise BagError(
+                f'{self.path}: {topic} cannot be decoded: message encoding '
+                f'{channel.message_encoding!r}, schema encoding {schema_encoding!r}; expected '
+                "'cdr' and 'ros2msg'"
+            )
+        self._decoders[topic] = decoder
+        return decoder
+
+
+def _one_line(error: Exception) -> str:
+    return ' '.join(f'{type(error).__name__}: {error}'.split())
