@@ -19,8 +19,7 @@ from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from sensor_msgs.msg import JointState
 
-from tactile_push.control import STATES, STOP_REASONS, PushLaw, Tick
-from tactile_push.tactile import REFUSALS, Contact, Reading, quaternion_of_yaw
+from tactile_push.tactile import Contact, quaternion_of_yaw
 
 FINGER_DISK = 'finger_disk'  # frame of the contacts
 FINGER_BASE = 'finger_base'  # frame of the commands
@@ -76,39 +75,6 @@ class ContactMessage:
         return pose
 
 
-def reading_state(
-    reading: Reading, joint_angle: float, theta: float, refusal: str, stamp: Time
-) -> JointState:
-    """Give all that the contact geometry used and gave for one reading.
-
-    Parameters
-    ----------
-    reading : Reading
-        The sensor's angles [rad].
-    joint_angle : float
-        By how far the joints had turned the finger tip at its moment [rad]; NaN if not known.
-    theta : float
-        Angle of the pushed edge [rad]; NaN if the reading was refused.
-    refusal : str
-        Why it was refused, one of `REFUSALS`.
-    stamp : Time
-        When the sensor was read.
-
-    Returns
-    -------
-    JointState
-        The message.
-    """
-    values = {
-        'azimuth': reading.azimuth,
-        'elevation': reading.elevation,
-        'joint_angle': joint_angle,
-        'theta': theta,
-        'refusal': float(REFUSALS.index(refusal)),
-    }
-    return named_values(stamp, values)
-
-
 def velocity_command(v_x: float, stamp: Time) -> TwistStamped:
     """Give a command to the finger.
 
@@ -129,41 +95,3 @@ def velocity_command(v_x: float, stamp: Time) -> TwistStamped:
     command.header.frame_id = FINGER_BASE
     command.twist.linear.x = v_x
     return command
-
-
-def tick_state(tick: Tick, law: PushLaw, stamp: Time) -> JointState:
-    """Give all that one control period used and gave.
-
-    Parameters
-    ----------
-    tick : Tick
-        The control period.
-    law : PushLaw
-        The law that acted in it.
-    stamp : Time
-        Its time.
-
-    Returns
-    -------
-    JointState
-        The message.
-    """
-    values = {
-        'theta': tick.theta,
-        'theta_desired': law.theta_desired,
-        'phi': tick.phi,
-        'v_x': float('nan') if tick.v_x is None else tick.v_x,
-        'kp': law.kp,
-        'kd': law.kd,
-        'silence': tick.silence,
-        'saturated': float(tick.saturated),
-        'limited': float(tick.limited),
-        'finger_x': tick.finger_x,
-        'state': float(STATES.index(tick.state)),
-        'stop_reason': float(STOP_REASONS.index(tick.stop_reason)),
-        'ticks': float(tick.ticks),
-        'ticks_lost': float(tick.ticks_lost),
-        'elapsed': tick.elapsed,
-        'finger_age': tick.finger_age,
-    }
-    return named_values(stamp, values)

@@ -13,69 +13,75 @@
 # limitations under the License.
 """Write a bag as `ros2 bag record -s mcap` of ROS 2 Jazzy does.
 
-A bag is a directory with one MCAP file and a ``metadata.yaml``. The formats are
+A bag is a directory with one MCAP file or more and a ``metadata.yaml``. The formats are
 https://mcap.dev/spec, https://mcap.dev/spec/registry (profile ``ros2``) and version 9 of
-``rosbag2_storage::BagMetadata``.
+``rosbag2_storage::BagMetadata``; what goes into the MCAP file is as in
+rosbag2_storage_mcap/src/mcap_storage.cpp.
 """
 
 import os
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
-from typing import Any
 
-import yaml
 from mcap.writer import LIBRARY_IDENTIFIER, CompressionType, Writer
 
 from tactile_push.bags.definitions import schema_text
+from tactile_push.bags.disk import Disk, DiskFile, sync_directory, write_whole
+from tactile_push.bags.metadata import (
+    FileMetadata,
+    Messages,
+    TopicMetadata,
+    bag_metadata,
+    to_yaml,
+)
 
-# Longest time for which a message stays in memory while others follow it [s].
-FLUSH_PERIOD = 1.0
+# Longest time for which a message stays in memory while others follow it [s]: with what the disk
+# takes after that, not more than a second is lost in a power cut.
+FLUSH_PERIOD = 0.5
 
-# What rosbag2 gives as the starting time of a bag without messages [ns].
-_NEVER = 2**63 - 1
+COMPRESSIONS = {
+    'zstd': CompressionType.ZSTD,
+    'lz4': CompressionType.LZ4,
+    'none': CompressionType.NONE,
+}
 
-
-class _PlainDumper(yaml.SafeDumper):
-    """Write equal parts out in full, where YAML would refer from one to the other."""
-
-    def ignore_aliases(self, data: Any) -> bool:
-        """Tell that nothing is to be replaced by a reference."""
-        return True
-
-
-def _to_yaml(value: object) -> str:
-    return yaml.dump(value, Dumper=_PlainDumper, sort_keys=False, default_flow_style=False)
-
-
-@dataclass
-class _Topic:
-    """A topic of the bag: its channel in the MCAP file and its entry in the metadata."""
-
-    channel_id: int
-    metadata: dict[str, object]
-    message_count: int = 0
+# Size at which a chunk is closed, before compression [B].
+_CHUNK_BYTES = 1 << 20
 
 
 class BagWriter:
     """A bag that is being written.
 
-    What was written is handed to the operating system at the latest one second later, as long as
-    messages keep coming or `flush` is called, so that little is lost if the process dies. A bag
-    that was not closed has no index and no ``metadata.yaml`` (``ros2 bag reindex`` makes one), but
-    can be read up to its last whole chunk.
+    What was written is on the disk at the latest a second later, as long as messages keep coming
+    or `flush` is called, so that little is lost if the process dies or the power fails. A bag that
+    was not closed has no ``metadata.yaml`` and its last file no index (``ros2 bag reindex`` makes
+    them), but can be read up to its last whole chunk.
+
+    When the disk is full or fails, the method called next raises OSError. The bag then ends with
+    the last chunk that went onto the disk whole, like one that was not closed.
+
+    In memory are a chunk, those that wait for the disk (64 at the most), and the index of the
+    file, a kilobyte a chunk.
 
     Parameters
     ----------
     directory : str or path
-        Directory of the bag, made here with its parents. The MCAP file in it gets its name.
+        Directory of the bag, made here with its parents. The MCAP files in it get its name.
+    compression : {'zstd', 'lz4', 'none'}, optional
+        How chunks are compressed.
+    max_bytes : int, optional
+        A message that comes when the file has so many bytes begins a new one; 0 for one file.
+    max_duration : float, optional
+        So does a message that was received so long after the first one of the file [s].
 
     Raises
     ------
     FileExistsError
         If `directory` exists: a bag is never overwritten.
+    OSError
+        If it cannot be made.
 
     Examples
     --------
@@ -87,18 +93,47 @@ class BagWriter:
     ['metadata.yaml', 'push_0.mcap']
     """
 
-    def __init__(self, directory: str | os.PathLike[str]) -> None:
-        self._directory = Path(directory)
+    def __init__(
+        self,
+        directory: str | os.PathLike[str],
+        *,
+        compression: str = 'zstd',
+        max_bytes: int = 0,
+        max_duration: float = 0.0,
+    ) -> None:
+        if compression not in COMPRESSIONS:
+            raise ValueError(
+                f'compression: expected one of {", ".join(COMPRESSIONS)}, got {compression!r}'
+            )
+        self._directory = Path(os.path.abspath(directory))  # of '.', too, files get the name
+        self._compression = COMPRESSIONS[compression]
+        self._max_bytes = max_bytes
+        self._max_duration = round(max_duration * 1e9)
         self._directory.mkdir(parents=True)
-        self._file_name = f'{self._directory.name}_0.mcap'
-        self._topics: dict[str, _Topic] = {}
-        self._schema_ids: dict[str, int] = {}
-        self._start, self._end = _NEVER, 0
-        self._stream = open(self._directory / self._file_name, 'wb')  # noqa: SIM115, see close
-        self._mcap = Writer(self._stream, compression=CompressionType.ZSTD, enable_crcs=True)
-        self._mcap.start(profile='ros2', library=f'tactile_push {LIBRARY_IDENTIFIER}')
-        self._add_metadata_record()
-        self.flush()
+        self._topics: dict[str, TopicMetadata] = {}
+        self._definitions: dict[str, str] = {}
+        self._notes: dict[str, str] = {}
+        self._messages = Messages()
+        self._files: list[FileMetadata] = []
+        self._closed = False
+        self._disk = Disk()
+        self._begin_file()
+        self._disk.do(lambda: sync_directory(self._directory.parent))
+
+    @property
+    def message_count(self) -> int:
+        """Number of messages written."""
+        return self._messages.count
+
+    @property
+    def file_count(self) -> int:
+        """Number of files begun."""
+        return len(self._files)
+
+    @property
+    def byte_count(self) -> int:
+        """Size of all files so far, without what waits in a chunk [B]."""
+        return self._finished_bytes + self._stream.tell()
 
     def add_topic(
         self,
@@ -107,6 +142,7 @@ class BagWriter:
         *,
         qos: Sequence[Mapping[str, object]] = (),
         type_hash: str = '',
+        definition: str | None = None,
     ) -> None:
         """Add a topic, which must be done once before messages are written to it.
 
@@ -122,40 +158,22 @@ class BagWriter:
             none.
         type_hash : str, optional
             Hash of the message type after REP-2011 (``RIHS01_…``); empty if it is not known.
+        definition : str, optional
+            Definition of the message type with those of all its parts, for example from another
+            bag; by default that of the installed type.
 
         Raises
         ------
         LookupError
-            If the message type is not installed.
+            If the message type is not installed and no definition is given.
         ValueError
             If the bag has the topic already.
         """
         if name in self._topics:
             raise ValueError(f'the bag has the topic {name} already')
-        if type_name not in self._schema_ids:
-            self._schema_ids[type_name] = self._mcap.register_schema(
-                type_name, 'ros2msg', schema_text(type_name).encode()
-            )
-        profiles = [dict(profile) for profile in qos]
-        channel_id = self._mcap.register_channel(
-            name,
-            'cdr',
-            self._schema_ids[type_name],
-            {
-                'offered_qos_profiles': _to_yaml(profiles).rstrip(),
-                'topic_type_hash': type_hash,
-            },
-        )
-        self._topics[name] = _Topic(
-            channel_id,
-            {
-                'name': name,
-                'type': type_name,
-                'serialization_format': 'cdr',
-                'offered_qos_profiles': profiles,
-                'type_description_hash': type_hash,
-            },
-        )
+        self._definitions[name] = schema_text(type_name) if definition is None else definition
+        self._topics[name] = TopicMetadata(name, type_name, qos, type_hash)
+        self._register(self._topics[name])
 
     def write(self, topic: str, data: bytes, log_time_ns: int, publish_time_ns: int) -> None:
         """Add a message.
@@ -169,31 +187,56 @@ class BagWriter:
         log_time_ns, publish_time_ns : int
             When it was received and published, in nanoseconds since the epoch of the clock.
         """
-        if self._stream.closed:
+        if self._closed:
             raise ValueError('the bag is closed')
         entry = self._topics[topic]
-        self._mcap.add_message(entry.channel_id, log_time_ns, data, publish_time_ns)
-        entry.message_count += 1
-        self._start = min(self._start, log_time_ns)
-        self._end = max(self._end, log_time_ns)
+        self._disk.check()
+        if self._is_full(log_time_ns):
+            self._finish_file()
+            self._begin_file()
+        self._mcap.add_message(self._channel_ids[topic], log_time_ns, data, publish_time_ns)
+        entry.count += 1
+        self._messages.add(log_time_ns)
+        self._files[-1].messages.add(log_time_ns)
         if time.monotonic() - self._flushed >= FLUSH_PERIOD:
             self.flush()
 
+    def note(self, key: str, text: str) -> None:
+        """Put a text into the bag: into ``custom_data`` of its metadata, and into every file.
+
+        Parameters
+        ----------
+        key : str
+            What it is about; a later note of the same key replaces this one.
+        text : str
+            The text.
+        """
+        if self._closed:
+            raise ValueError('the bag is closed')
+        self._notes[key] = text
+        self._mcap.add_metadata('tactile_push', {key: text})
+
     def flush(self) -> None:
-        """Finish the chunk and hand all that was written to the operating system."""
+        """Finish the chunk and have all that was written put onto the disk, without waiting."""
+        self._disk.check()
         self._mcap.flush()
         self._flushed = time.monotonic()
 
     def close(self) -> None:
         """Finish the file and write ``metadata.yaml``; further calls do nothing."""
-        if self._stream.closed:
+        if self._closed:
             return
-        with self._stream:
-            self.flush()
-            self._add_metadata_record()
-            self._mcap.finish()
-        text = _to_yaml({'rosbag2_bagfile_information': self._metadata()})
-        Path(self._directory, 'metadata.yaml').write_text(text, encoding='utf-8')
+        self._closed = True
+        failed = self._disk.failed
+        try:
+            if not failed:
+                self._finish_file()
+        finally:
+            self._disk.close()
+        if not failed:
+            self._disk.check()
+            text = to_yaml({'rosbag2_bagfile_information': self._metadata()})
+            write_whole(self._directory / 'metadata.yaml', text)
 
     def __enter__(self) -> 'BagWriter':
         """Return the bag, which is closed at the end of the block."""
@@ -208,37 +251,65 @@ class BagWriter:
         """Close the bag; what was written before an error is kept."""
         self.close()
 
+    def _is_full(self, log_time_ns: int) -> bool:
+        """Tell whether a message belongs into a new file, as rosbag2's should_split_bagfile."""
+        messages = self._files[-1].messages
+        if not messages.count:
+            return False
+        if self._max_bytes and self._stream.tell() >= self._max_bytes:
+            return True
+        return bool(self._max_duration) and log_time_ns - messages.start > self._max_duration
+
+    def _begin_file(self) -> None:
+        """Begin a file with all that makes it complete by itself."""
+        self._finished_bytes = self.byte_count if self._files else 0
+        name = f'{self._directory.name}_{len(self._files)}.mcap'
+        self._stream = DiskFile(self._disk, self._directory / name)
+        self._files.append(FileMetadata(name))
+        self._mcap = Writer(
+            self._stream,  # type: ignore[arg-type]  # has what is needed of a stream
+            # Small enough for a file to be not much larger than asked for.
+            chunk_size=min(_CHUNK_BYTES, self._max_bytes // 16 or _CHUNK_BYTES),
+            compression=self._compression,
+            enable_crcs=True,
+        )
+        self._mcap.start(profile='ros2', library=f'tactile_push {LIBRARY_IDENTIFIER}')
+        self._schema_ids: dict[tuple[str, str], int] = {}
+        self._channel_ids: dict[str, int] = {}
+        self._add_metadata_record()
+        for key, text in self._notes.items():
+            self._mcap.add_metadata('tactile_push', {key: text})
+        for topic in self._topics.values():
+            self._register(topic)
+        self.flush()
+
+    def _finish_file(self) -> None:
+        self._mcap.flush()
+        self._add_metadata_record()
+        self._mcap.finish()
+        self._stream.close()
+
+    def _register(self, topic: TopicMetadata) -> None:
+        definition = self._definitions[topic.name]
+        schema = topic.type_name, definition
+        if schema not in self._schema_ids:
+            self._schema_ids[schema] = self._mcap.register_schema(
+                topic.type_name, 'ros2msg', definition.encode()
+            )
+        self._channel_ids[topic.name] = self._mcap.register_channel(
+            topic.name,
+            'cdr',
+            self._schema_ids[schema],
+            {
+                'offered_qos_profiles': to_yaml([dict(entry) for entry in topic.qos]).rstrip(),
+                'topic_type_hash': topic.type_hash,
+            },
+        )
+
     def _add_metadata_record(self) -> None:
-        # Like rosbag2, once when the bag is opened and once when it is closed; the last one counts.
-        text = _to_yaml(self._metadata()).rstrip()
+        # Like rosbag2, once when a file is opened and once when it is closed; the last one counts.
+        text = to_yaml(self._metadata()).rstrip()
         self._mcap.add_metadata('rosbag2', {'serialized_metadata': text})
 
     def _metadata(self) -> dict[str, object]:
-        duration = {'nanoseconds': max(self._end - self._start, 0)}
-        starting_time = {'nanoseconds_since_epoch': self._start}
-        message_count = sum(topic.message_count for topic in self._topics.values())
-        return {
-            'version': 9,
-            'storage_identifier': 'mcap',
-            'duration': duration,
-            'starting_time': starting_time,
-            'message_count': message_count,
-            'topics_with_message_count': [
-                {'topic_metadata': topic.metadata, 'message_count': topic.message_count}
-                for topic in self._topics.values()
-            ],
-            # Of whole files or messages, which rosbag2 does itself; chunks are MCAP's own matter.
-            'compression_format': '',
-            'compression_mode': '',
-            'relative_file_paths': [self._file_name],
-            'files': [
-                {
-                    'path': self._file_name,
-                    'starting_time': starting_time,
-                    'duration': duration,
-                    'message_count': message_count,
-                }
-            ],
-            'custom_data': None,
-            'ros_distro': os.environ.get('ROS_DISTRO', 'jazzy'),
-        }
+        return bag_metadata(self._messages, self._topics.values(), self._files, self._notes)

@@ -23,6 +23,7 @@ from tactile_push.control.law import (
 from tactile_push.control.limits import Limits, plausible
 from tactile_push.control.newest import Newest
 from tactile_push.control.push_control import PushControl, Tick
+from tactile_push.control.record import tick_of, tick_values
 from tactile_push.control.settling import settle_step
 from tactile_push.control.states import (
     ANOTHER_COMMAND,
@@ -69,4 +70,6 @@ __all__ = [
     'plausible',
     'push_angle',
     'settle_step',
+    'tick_of',
+    'tick_values',
 ]

@@ -20,18 +20,17 @@ from collections import Counter
 
 from geometry_msgs.msg import PoseStamped
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 
 from tactile_push.configuration.contact_geometry import PARAMETERS, make_finder, take_values
-from tactile_push.messages import ContactMessage, reading_state
+from tactile_push.messages import ContactMessage, named_values
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.node_time import NodeTime
 from tactile_push.nodes.parameters import ConfigurationError, declare
 from tactile_push.nodes.process import run
-from tactile_push.tactile import NO_CONTACT, Reading, ReadingRejectedError
+from tactile_push.nodes.qos import PUBLISHED, SENSOR_DATA
+from tactile_push.tactile import NO_CONTACT, Reading, ReadingRejectedError, reading_values
 
-SENSOR_DATA = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
 PATIENCE = 0.5  # without a reading, or without one that is of use, before it is an error [s]
 # What is counted and no reason to worry. A finger in the air is no fault. What came twice did no
 # harm; on simulated time, which stands still now and then, it is common.
@@ -72,8 +71,8 @@ class ContactGeometry(Node):
         self._feels = ''  # what the last useful reading said
         self._refusal = ''  # why the last refused one was refused
         self._message = ContactMessage()
-        self._publisher = self.create_publisher(PoseStamped, 'contact', 10)
-        self._state = self.create_publisher(JointState, 'contact_geometry/state', 10)
+        self._publisher = self.create_publisher(PoseStamped, 'contact', PUBLISHED)
+        self._state = self.create_publisher(JointState, 'contact_geometry/state', PUBLISHED)
         if p.use_joint_states:
             # Before the readings: the executor serves what has arrived in this order.
             self.create_subscription(JointState, 'joint_states', self._on_joint_states, SENSOR_DATA)
@@ -117,7 +116,8 @@ class ContactGeometry(Node):
             self._publisher.publish(self._message.of(contact, message.header.stamp))
         if self._state.get_subscription_count():
             angle = math.nan if reading is NO_CONTACT else self._finder.joint_angle
-            self._state.publish(reading_state(reading, angle, theta, refusal, message.header.stamp))
+            values = reading_values(reading, angle, theta, refusal)
+            self._state.publish(named_values(message.header.stamp, values))
 
     def _refuse(self, reason: str) -> None:
         self._counted[f'rejected: {reason}'] += 1

@@ -14,6 +14,7 @@
 """Conducts an experiment: starts the controller once everything is recorded, ends after N steps."""
 
 import sys
+from contextlib import ExitStack
 
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
@@ -23,12 +24,13 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from tactile_push.bags import BagWriter
-from tactile_push.bags.recorder import Recorder
 from tactile_push.configuration import Parameter
 from tactile_push.nodes.parameters import ConfigurationError, declare
 from tactile_push.nodes.process import run
+from tactile_push.nodes.recording import TOPICS, Recording
 
-TOPICS = (
+# Without these recorded from the beginning no experiment starts.
+AWAITED = (
     'tactile',
     'joint_states',
     'contact',
@@ -43,7 +45,7 @@ LOOK_PERIOD = 0.05  # [s]
 
 
 class Experiment(Node):
-    """Node: manages `push_controller` and records the topics of a run.
+    """Node: manages `push_controller` and records the package's topics in a run.
 
     It prints the number of steps done, a line at a time, for whoever shows the progress.
     """
@@ -60,10 +62,13 @@ class Experiment(Node):
         if not self._settings.bag:
             raise ConfigurationError('parameter bag: expected a folder')
         try:
-            self._writer = BagWriter(self._settings.bag)
+            writer = BagWriter(self._settings.bag)
         except OSError as error:
-            raise ConfigurationError(f'parameter bag: {error}') from None
-        self._recorder = Recorder(self, TOPICS, self._writer)
+            raise ConfigurationError(
+                f'parameter bag: {error.filename}: {error.strerror}, expected a new folder'
+            ) from None
+        self._recording = Recording(self, TOPICS, writer)
+        self._awaited = {self.resolve_topic_name(topic) for topic in AWAITED}
         self._controller = self.create_client(ChangeState, 'push_controller/change_state')
         self._transitions = [Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_ACTIVATE]
         self._answer: Future | None = None
@@ -73,9 +78,9 @@ class Experiment(Node):
 
     def destroy_node(self) -> None:
         """Finish the bag and end."""
-        self._recorder.stop()
-        self._writer.close()
-        super().destroy_node()
+        with ExitStack() as stack:
+            stack.callback(super().destroy_node)
+            self._recording.close()
 
     def _look(self) -> None:
         if self._answer is not None and self._answer.done():
@@ -105,13 +110,13 @@ class Experiment(Node):
         """Tell whether all is recorded and the controller hears the contacts."""
         contact = self.resolve_topic_name('contact')
         return (
-            not self._recorder.missing()
-            and self._recorder.counts[contact] > 0
+            self._awaited.isdisjoint(self._recording.recorder.missing())
+            and self._recording.recorder.counts[contact] > 0
             and self.count_subscribers(contact) > 1
         )
 
     def _report(self) -> None:
-        steps = self._recorder.counts[self.resolve_topic_name('finger/cmd_vel')]
+        steps = self._recording.recorder.counts[self.resolve_topic_name('finger/cmd_vel')]
         if steps != self._steps:
             self._steps = steps
             print(steps, flush=True)

@@ -117,16 +117,21 @@ def declare(
     node.add_on_set_parameters_callback(check)
     overrides = node._parameter_overrides  # rclpy has no public way to see what nobody declares
     for parameter in parameters:
+        no_texts = parameter.default == []  # rclpy would take them for no bytes
+        default = rclpy.parameter.Parameter.Type.STRING_ARRAY if no_texts else parameter.default
         try:
-            value = node.declare_parameter(
-                parameter.name, parameter.default, descriptor(parameter)
-            ).value
+            value = node.declare_parameter(parameter.name, default, descriptor(parameter)).value
         except ParameterException:
             given = overrides[parameter.name].value
             raise ConfigurationError(
                 f'parameter {parameter.name}: expected {parameter.expected()}, got {given!r}'
             ) from None
-        setattr(values, parameter.name, [] if value is None else value)  # rclpy's empty list
+        if value is None:  # no texts given either
+            value = []
+            node._parameters[parameter.name] = rclpy.parameter.Parameter(
+                parameter.name, rclpy.parameter.Parameter.Type.STRING_ARRAY, value
+            )
+        setattr(values, parameter.name, value)
     for name in overrides:
         if not node.has_parameter(name) and not name.startswith('qos_overrides.'):
             similar = difflib.get_close_matches(name, list(vars(values)), n=1, cutoff=0.5)

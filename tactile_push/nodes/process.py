@@ -46,7 +46,7 @@ def run(node_class: type[Node]) -> int:
     Returns
     -------
     int
-        Exit status: 0 done, 2 bad input.
+        Exit status: 0 done, 1 a file or device failed the node, 2 bad input.
     """
     if {'-h', '--help'} & set(sys.argv[1:]):
         print(_help(node_class))
@@ -78,19 +78,26 @@ def run(node_class: type[Node]) -> int:
         return _refuse(node_class, str(error))
     executor = Executor()
     executor.add_node(node)
+    status = 0
     try:
-        while not stopping and rclpy.ok():
-            executor.spin_once()
-    except ExternalShutdownException:
-        pass
+        try:
+            while not stopping and rclpy.ok():
+                executor.spin_once()
+        except ExternalShutdownException:
+            pass
+        finally:
+            executor.shutdown()
+            node.destroy_node()
+    except OSError as error:
+        status = 1
+        where = '' if error.filename is None else f'{error.filename}: '
+        print(f'{node_class.NAME}: {where}{error.strerror or error}', file=sys.stderr)
     finally:
-        executor.shutdown()
-        node.destroy_node()
         rclpy.try_shutdown()
         # Python restores its own handlers at exit, and an impatient second signal would show.
         for signum in SIGNALS:
             signal.signal(signum, signal.SIG_IGN)
-    return 0
+    return status
 
 
 def _brief(error: Exception) -> str:

@@ -41,17 +41,17 @@ from tactile_push.control import (
     WAITING,
     Tick,
     plausible,
+    tick_values,
 )
-from tactile_push.messages import FINGER_DISK, tick_state, velocity_command
+from tactile_push.messages import FINGER_DISK, named_values, velocity_command
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.managed import ManagedNode
 from tactile_push.nodes.node_time import NodeTime
 from tactile_push.nodes.parameters import ConfigurationError, declare
 from tactile_push.nodes.process import run
+from tactile_push.nodes.qos import PUBLISHED, SENSOR_DATA
 from tactile_push.tactile import yaw_of_quaternion
 
-# Deep enough that no bad message hides behind a good one.
-SENSOR_DATA = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
 # Reliable so that no single command is missed, and best effort to hear who is that himself.
 COMMANDS = (
     QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE),
@@ -102,8 +102,10 @@ class PushController(ManagedNode):
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Create the topics."""
-        self._command = self.create_lifecycle_publisher(TwistStamped, 'finger/cmd_vel', 10)
-        self._state = self.create_lifecycle_publisher(JointState, 'push_controller/state', 10)
+        self._command = self.create_lifecycle_publisher(TwistStamped, 'finger/cmd_vel', PUBLISHED)
+        self._state = self.create_lifecycle_publisher(
+            JointState, 'push_controller/state', PUBLISHED
+        )
         self._subscriptions_made = (
             self.create_subscription(
                 JointState, 'joint_states', self._on_joint_states, SENSOR_DATA
@@ -214,7 +216,7 @@ class PushController(ManagedNode):
         self._ticked_at = time.monotonic()
         if self._tick.v_x is not None:
             self._publish_command(stamp, self._tick.v_x)
-        self._state.publish(tick_state(self._tick, self._control.law, stamp))
+        self._state.publish(named_values(stamp, tick_values(self._tick, self._control.law)))
         self._diagnostics.update()
 
     def _publish_command(self, stamp: Time, v_x: float) -> None:
@@ -231,7 +233,8 @@ class PushController(ManagedNode):
         self._tick = None
         stamp = self.get_clock().now().to_msg()
         self._publish_command(stamp, 0.0)
-        self._state.publish(tick_state(self._control.deactivate(), self._control.law, stamp))
+        last = tick_values(self._control.deactivate(), self._control.law)
+        self._state.publish(named_values(stamp, last))
         self._command.wait_for_all_acked(Duration(seconds=0.1))
 
     def _counts(self) -> Counter[str]:

@@ -26,6 +26,7 @@ from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.managed import ManagedNode
 from tactile_push.nodes.parameters import ConfigurationError, declare
 from tactile_push.nodes.process import run
+from tactile_push.nodes.qos import PUBLISHED
 from tactile_push.tactile import Reading
 from tactile_push.tactile.device import check_url
 from tactile_push.tactile.reader import Condition, SensorReader
@@ -89,7 +90,7 @@ class SensorDriver(ManagedNode):
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Create the publisher."""
-        self._publisher = self.create_lifecycle_publisher(JointState, 'tactile', 10)
+        self._publisher = self.create_lifecycle_publisher(JointState, 'tactile', PUBLISHED)
         return TransitionCallbackReturn.SUCCESS
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:

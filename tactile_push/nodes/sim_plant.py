@@ -36,6 +36,7 @@ from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.markers import rig_markers
 from tactile_push.nodes.parameters import ConfigurationError, declare
 from tactile_push.nodes.process import run
+from tactile_push.nodes.qos import PUBLISHED
 from tactile_push.simulation import Readout, Rig, serve
 from tactile_push.simulation.pace import Pace
 from tactile_push.tactile import Reading, Sentence, encode, quaternion_of_yaw
@@ -111,9 +112,11 @@ class SimPlant(Node):
         self._readout.sensor = self._rig.faults.sensor
 
     def _create_topics(self) -> None:
-        self._joint_states = self.create_publisher(JointState, 'joint_states', 10)
-        self._object_pose = self.create_publisher(PoseStamped, 'ground_truth/object_pose', 10)
-        self._state = self.create_publisher(JointState, 'ground_truth/state', 10)
+        self._joint_states = self.create_publisher(JointState, 'joint_states', PUBLISHED)
+        self._object_pose = self.create_publisher(
+            PoseStamped, 'ground_truth/object_pose', PUBLISHED
+        )
+        self._state = self.create_publisher(JointState, 'ground_truth/state', PUBLISHED)
         self._markers = self.create_publisher(MarkerArray, 'markers', 10)
         self._clock_publisher = None
         if self._settings.publish_clock:

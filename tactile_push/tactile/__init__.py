@@ -26,6 +26,7 @@ from tactile_push.tactile.jumps import JUMP_TOLERANCE, MAX_THETA_RATE, JumpGuard
 from tactile_push.tactile.orientation import quaternion_of_yaw, yaw_of_quaternion
 from tactile_push.tactile.pole_history import BELIEVED, PoleHistory
 from tactile_push.tactile.reading import NO_CONTACT, Reading
+from tactile_push.tactile.record import reading_values
 from tactile_push.tactile.sentence import Sentence, SentenceError, checksum, decode, encode
 from tactile_push.tactile.stream import SentenceStream
 
@@ -55,5 +56,6 @@ __all__ = [
     'pole_angle',
     'quaternion_of_yaw',
     'reading_of_contact',
+    'reading_values',
     'yaw_of_quaternion',
 ]

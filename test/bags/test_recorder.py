@@ -13,6 +13,8 @@
 # limitations under the License.
 """The recorder with real publishers, in a domain and a namespace of its own for each test."""
 
+import errno
+import os
 import random
 import time
 import uuid
@@ -32,12 +34,13 @@ from rclpy.parameter import Parameter  # noqa: E402
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy  # noqa: E402
 from rclpy.serialization import deserialize_message, serialize_message  # noqa: E402
 from rclpy.topic_endpoint_info import TopicEndpointInfo  # noqa: E402
+from rclpy.type_hash import TypeHash  # noqa: E402
 from rosgraph_msgs.msg import Clock  # noqa: E402
 from sensor_msgs.msg import JointState  # noqa: E402
 from visualization_msgs.msg import Marker, MarkerArray  # noqa: E402
 
 from tactile_push.bags import BagWriter  # noqa: E402
-from tactile_push.bags.recorder import Recorder, message_class  # noqa: E402
+from tactile_push.bags.recorder import Recorder, common_type_hash, message_class  # noqa: E402
 
 # type_hashes in share/sensor_msgs/msg/JointState.json of ROS 2 Jazzy.
 JOINT_STATE_HASH = 'RIHS01_a13ee3a330e346c9d87b5aa18d24e11690752bd33a0350f11c5882bc9179260e'
@@ -51,8 +54,11 @@ class Graph:
     """A node that publishes and a node that records, which only runs while the test spins it."""
 
     def __init__(self, use_sim_time=False):
-        self.context = Context()
-        rclpy.init(context=self.context, domain_id=random.randint(1, 100))
+        self.context, self.elsewhere = Context(), Context()
+        domain = random.randint(1, 100)
+        rclpy.init(context=self.context, domain_id=domain)
+        rclpy.init(context=self.elsewhere, domain_id=domain)
+        self.stranger = rclpy.create_node('stranger', context=self.elsewhere)
         namespace = f'test_{uuid.uuid4().hex}'
         self.name = f'/{namespace}/'
         self.plant = rclpy.create_node('plant', context=self.context, namespace=namespace)
@@ -81,7 +87,9 @@ class Graph:
         self.executor.shutdown()
         self.node.destroy_node()
         self.plant.destroy_node()
+        self.stranger.destroy_node()
         rclpy.shutdown(context=self.context)
+        rclpy.shutdown(context=self.elsewhere)
 
 
 @pytest.fixture
@@ -301,37 +309,56 @@ def test_times_are_those_of_sending_and_receiving(graph, writer, path):
     assert before <= message.publish_time <= message.log_time <= after
 
 
+def clock_message(time_ns):
+    """Return a tick of simulated time."""
+    message = Clock()
+    message.clock.sec, message.clock.nanosec = divmod(time_ns, 10**9)
+    return message
+
+
 @pytest.mark.parametrize('use_sim_time', [True])
-def test_times_are_simulated_if_the_node_uses_simulated_time(graph, writer, path):
+def test_times_of_reception_are_simulated_if_the_node_uses_simulated_time(graph, writer, path):
     clock = graph.publisher(Clock, '/clock')
     tactile = graph.publisher(JointState, 'tactile')
-    recorder = Recorder(graph.node, ['tactile', '/clock'], writer)
-    # Both the node's own clock and the recording listen to the clock.
-    graph.spin_until(lambda: clock.get_subscription_count() == 2 and matched(tactile)())
+    markers = graph.publisher(MarkerArray, 'markers', LATCHED)
+    recorder = Recorder(graph.node, ['tactile', '/clock', 'markers'], writer)
+    # The node's own clock, the recorder and the recording listen to the clock.
+    graph.spin_until(lambda: clock.get_subscription_count() == 3 and matched(tactile, markers)())
+    start = time.time_ns()
     tactile.publish(JointState(position=[0.0]))
-    graph.spin_until(lambda: recorder.counts[graph.name + 'tactile'] == 1)
+    markers.publish(MarkerArray(markers=[Marker(id=7)]))
+    clock.publish(clock_message(0))
     ticks = [1_000_000_001, 1_500_000_000, 40_000_000_000]
     for i, tick in enumerate(ticks, start=1):
-        message = Clock()
-        message.clock.sec, message.clock.nanosec = divmod(tick, 10**9)
-        clock.publish(message)
-        graph.spin_until(lambda tick=tick: graph.node.get_clock().now().nanoseconds == tick)
+        clock.publish(clock_message(tick))
+        # However late the process gets to it: what counts is when it was received.
         tactile.publish(JointState(position=[float(i)]))
-        graph.spin_until(lambda i=i: recorder.counts[graph.name + 'tactile'] == i + 1)
+        time.sleep(0.001)
+    graph.spin_until(lambda: recorder.counts[graph.name + 'tactile'] == len(ticks))
     graph.spin_until(lambda: recorder.counts['/clock'] == len(ticks))
+    graph.spin_until(lambda: recorder.counts[graph.name + 'markers'] == 1)
     recorder.stop()
     writer.close()
+    end = time.time_ns()
 
     messages = read_bag(path)
     tactile_times = [
-        (message.log_time, message.publish_time, decoded.position[0])
+        (message.log_time, decoded.position[0])
         for topic, message, decoded in messages
         if topic == graph.name + 'tactile'
     ]
-    # Before its first tick, simulated time is 0.
-    assert tactile_times == [(tick, tick, float(i)) for i, tick in enumerate([0, *ticks])]
-    clocks = [decoded.clock for topic, _, decoded in messages if topic == '/clock']
-    assert [clock.sec * 10**9 + clock.nanosec for clock in clocks] == ticks
+    # Until simulated time runs, nothing is recorded but what is latched.
+    assert tactile_times == [(tick, float(i)) for i, tick in enumerate(ticks, start=1)]
+    clocks = [
+        (message.log_time, decoded.clock.sec * 10**9 + decoded.clock.nanosec)
+        for topic, message, decoded in messages
+        if topic == '/clock'
+    ]
+    assert clocks == [(tick, tick) for tick in ticks]
+    (latched,) = (message for topic, message, _ in messages if topic == graph.name + 'markers')
+    assert latched.log_time == ticks[0]
+    # As rosbag2's recorder.cpp has it: the sender's stamp is the middleware's.
+    assert all(start <= message.publish_time <= end for _, message, _ in messages)
 
 
 def test_nothing_is_recorded_after_stop(graph, writer):
@@ -346,31 +373,175 @@ def test_nothing_is_recorded_after_stop(graph, writer):
     assert recorder.counts == {graph.name + 'tactile': 0}
 
 
-def test_type_that_is_not_installed_is_reported_once_and_stays_missing(graph, writer):
-    tactile = graph.publisher(JointState, 'tactile')
-    strange = TopicEndpointInfo(topic_type='nowhere_msgs/msg/Thing')
-    from_graph = graph.node.get_publishers_info_by_topic
-    looks = []
-
-    def get_publishers_info_by_topic(topic):
-        """Answer like the graph, which has a topic of a strange type besides."""
-        if not topic.endswith('strange'):
-            return from_graph(topic)
-        looks.append(topic)
-        return [strange]
-
-    graph.node.get_publishers_info_by_topic = get_publishers_info_by_topic
+@pytest.fixture
+def errors(graph):
+    """Return the list of the errors that the recording node logs."""
     errors = []
     graph.node.get_logger().error = errors.append
+    return errors
+
+
+def add_to_graph(graph, topic, type_names):
+    """Let the recording node see publishers that are not there; return its looks at them."""
+    names_and_types = graph.node.get_topic_names_and_types
+    publishers = graph.node.get_publishers_info_by_topic
+    looks = []
+
+    def get_topic_names_and_types():
+        looks.append(topic)
+        return [*names_and_types(), (topic, type_names)]
+
+    def get_publishers_info_by_topic(name):
+        if name == topic:
+            return [TopicEndpointInfo(topic_type=type_name) for type_name in type_names]
+        return publishers(name)
+
+    graph.node.get_topic_names_and_types = get_topic_names_and_types
+    graph.node.get_publishers_info_by_topic = get_publishers_info_by_topic
+    return looks
+
+
+def test_type_that_is_not_installed_is_reported_once_and_stays_missing(graph, writer, errors):
+    tactile = graph.publisher(JointState, 'tactile')
+    looks = add_to_graph(graph, graph.name + 'strange', ['nowhere_msgs/msg/Thing'])
     recorder = Recorder(graph.node, ['strange', 'tactile'], writer)
     graph.spin_until(matched(tactile))
     tactile.publish(JointState())
-    graph.spin_until(lambda: recorder.counts[graph.name + 'tactile'] == 1 and len(looks) > 2)
-    recorder.stop()
+    graph.spin_until(lambda: recorder.counts[graph.name + 'tactile'] == 1 and len(looks) > 12)
     assert recorder.missing() == [graph.name + 'strange']
+    recorder.stop()
     (error,) = errors
     assert f'{graph.name}strange' in error
     assert 'nowhere_msgs/msg/Thing' in error
+
+
+def test_one_of_two_types_is_recorded_and_the_other_reported_once(graph, writer, path, errors):
+    first = graph.publisher(JointState, 'tactile')
+    recorder = Recorder(graph.node, ['tactile', 'contact'], writer)
+    graph.spin_until(matched(first))
+    second = graph.stranger.create_publisher(PoseStamped, graph.name + 'tactile', RELIABLE)
+    graph.spin_until(lambda: errors)
+    second.publish(PoseStamped())
+    first.publish(JointState(position=[3.0]))
+    graph.spin_until(lambda: recorder.counts[graph.name + 'tactile'] == 1)
+    contact = graph.publisher(PoseStamped, 'contact')
+    graph.spin_until(matched(contact))
+    looks = recorder._looks
+    graph.spin_until(lambda: recorder._looks > looks + 12)
+    recorder.stop()
+    writer.close()
+    (error,) = errors
+    assert f'{graph.name}tactile' in error
+    assert 'geometry_msgs/msg/PoseStamped' in error
+    ((_, _, decoded),) = read_bag(path)
+    assert list(decoded.position) == [3.0]
+
+
+def test_of_several_types_the_one_that_is_installed_is_recorded(graph, writer, path, errors):
+    types = ['nowhere_msgs/msg/Thing', 'sensor_msgs/msg/JointState']
+    add_to_graph(graph, graph.name + 'tactile', types)
+    recorder = Recorder(graph.node, ['tactile'], writer)
+    assert recorder.missing() == []
+    recorder.stop()
+    writer.close()
+    channels, schemas = read_channels(path)
+    assert schemas[channels[graph.name + 'tactile'].schema_id].name == 'sensor_msgs/msg/JointState'
+    (error,) = errors
+    assert 'nowhere_msgs/msg/Thing' in error
+
+
+def test_all_topics_are_found_as_they_appear_but_hidden_ones(graph, writer, path):
+    tactile = graph.publisher(JointState, 'tactile')
+    hidden = graph.publisher(JointState, '_hidden')
+    recorder = Recorder(graph.node, None, writer)
+    graph.spin_until(matched(tactile))
+    contact = graph.publisher(PoseStamped, 'contact')
+    graph.spin_until(matched(contact))
+    for publisher, message in ((tactile, JointState()), (contact, PoseStamped())):
+        publisher.publish(message)
+    hidden.publish(JointState())
+    mine = {graph.name + 'tactile': 1, graph.name + 'contact': 1}
+    graph.spin_until(
+        lambda: {t: n for t, n in recorder.counts.items() if t.startswith(graph.name)} == mine
+    )
+    # Of the nodes themselves.
+    assert {'/rosout', '/parameter_events'} <= set(recorder.counts)
+    assert not hidden.get_subscription_count()
+    assert recorder.missing() == []
+    recorder.stop()
+
+
+def test_messages_are_in_the_file_in_the_order_in_which_they_were_received(graph, writer, path):
+    topics = ['a', 'b', 'c']
+    publishers = [graph.publisher(JointState, topic) for topic in topics]
+    recorder = Recorder(graph.node, topics, writer)
+    graph.spin_until(matched(*publishers))
+    for i in range(90):
+        publishers[i % 3].publish(JointState(position=[float(i)]))
+    graph.spin_until(lambda: sum(recorder.counts.values()) == 90)
+    recorder.stop()
+    writer.close()
+    with open(path, 'rb') as stream:
+        times = [
+            message.log_time
+            for _, _, message in NonSeekingReader(stream).iter_messages(log_time_order=False)
+        ]
+    assert times == sorted(times)
+    assert len(times) == 90
+
+
+def test_what_was_received_before_the_stop_is_recorded(graph, writer, path):
+    tactile = graph.publisher(JointState, 'tactile')
+    recorder = Recorder(graph.node, ['tactile'], writer)
+    graph.spin_until(matched(tactile))
+    for _ in range(50):
+        tactile.publish(JointState())
+    deadline = time.monotonic() + 60
+    # The node does not run any more; the middleware goes on by itself.
+    while recorder.counts[graph.name + 'tactile'] < 50 and time.monotonic() < deadline:
+        recorder._take()
+        time.sleep(0.001)
+    tactile.publish(JointState())
+    time.sleep(0.2)  # to arrive; the test would fail without, never pass wrongly
+    recorder.stop()
+    assert recorder.counts[graph.name + 'tactile'] == 51
+
+
+A, B = TypeHash(1, b'a' * 32), TypeHash(1, b'b' * 32)
+UNKNOWN = TypeHash(0)
+
+
+@pytest.mark.parametrize(
+    'hashes, expected',
+    [
+        ([A], 'RIHS01_' + '61' * 32),
+        ([A, A], 'RIHS01_' + '61' * 32),
+        ([UNKNOWN, A], 'RIHS01_' + '61' * 32),
+        ([UNKNOWN], ''),
+        ([A, B], ''),
+    ],
+)
+def test_type_hash_is_the_one_that_publishers_agree_on(hashes, expected):
+    # As type_description_hash_for_topic in rosbag2's recorder.cpp.
+    publishers = [TopicEndpointInfo(topic_type_hash=type_hash) for type_hash in hashes]
+    assert common_type_hash(publishers) == expected
+
+
+def test_error_of_the_disk_is_raised_to_whoever_spins(graph, writer, monkeypatch):
+    tactile = graph.publisher(JointState, 'tactile')
+    recorder = Recorder(graph.node, ['tactile'], writer)
+    graph.spin_until(matched(tactile))
+
+    def fail(descriptor, data):
+        raise OSError(errno.ENOSPC, 'No space left on device')
+
+    monkeypatch.setattr(os, 'write', fail)
+    tactile.publish(JointState())
+    with pytest.raises(OSError, match='No space left'):
+        graph.spin_until(lambda: False)
+    with pytest.raises(OSError, match='No space left'):
+        writer.flush()
+    recorder.stop()
 
 
 def test_message_class():

@@ -27,6 +27,8 @@ EXECUTABLES = {
     'push_controller',
     'sim_plant',
     'experiment',
+    'bag_recorder',
+    'bag_player',
 }
 
 
@@ -52,10 +54,18 @@ def test_colcon_build_gives_runnable_executables(tmp_path: Path):
     executables = install / 'lib' / 'tactile_push'
     assert {file.name for file in executables.iterdir()} == EXECUTABLES
     share = install / 'share' / 'tactile_push'
-    for file in ('package.xml', 'config/block.yaml', 'config/disk.yaml', 'launch/demo.launch.py'):
+    for file in (
+        'package.xml',
+        'config/block.yaml',
+        'config/disk.yaml',
+        'config/loopback.xml',
+        'launch/demo.launch.py',
+    ):
         assert (share / file).exists(), file
     assert (install / 'share/ament_index/resource_index/packages/tactile_push').exists()
     (library,) = install.glob('lib/python*/site-packages')
+    for name in ('report.html', 'report.css', 'report.js', 'report_plots.js', 'report_view.js'):
+        assert (library / 'tactile_push' / 'plots' / name).exists(), name
     environment = {**os.environ, 'PYTHONPATH': str(library)}
     for name in EXECUTABLES:
         run = subprocess.run(

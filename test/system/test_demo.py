@@ -21,6 +21,9 @@ from pathlib import Path
 import pytest
 from mcap.reader import make_reader
 
+from tactile_push.bags import BagReader
+from tactile_push.replay import replay
+
 COMMAND = [sys.executable, '-m', 'tactile_push.cli', 'demo', '--json']
 
 
@@ -58,6 +61,10 @@ def test_demo_settles_both_rigs_and_leaves_a_picture_and_bags(tmp_path: Path):
             '/ground_truth/object_pose',
             '/joint_states',
         }
+        with BagReader(out / name) as bag:
+            (comparison,) = replay(bag)
+        assert len(comparison.ticks) > 400
+        assert not comparison.different()
 
 
 @pytest.mark.parametrize(

@@ -28,9 +28,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from conftest import Observer, Rig
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from lifecycle_msgs.msg import Transition
+from live import Observer, Rig
 from sensor_msgs.msg import JointState
 
 from tactile_push.processes import NodeProcesses

@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 import pytest
-from conftest import Rig, field
+from live import Rig, field
 
 from tactile_push.control import STATES, PushLaw, settle_step
 from tactile_push.simulation import experiment, paper_block, paper_disk

@@ -15,7 +15,7 @@ import math
 from pathlib import Path
 
 import pytest
-from conftest import Observer
+from live import Observer
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
 

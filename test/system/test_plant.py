@@ -19,9 +19,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import Observer, Rig, field, seconds
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, TwistStamped
+from live import Observer, Rig, field, seconds
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState

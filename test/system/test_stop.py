@@ -16,9 +16,9 @@ import math
 import signal
 
 import pytest
-from conftest import Observer, Rig, field, seconds
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from lifecycle_msgs.msg import Transition
+from live import Observer, Rig, field, seconds
 
 from tactile_push.control import PUSHING, STATES, STOPPED
 

@@ -1,0 +1,192 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""A bag's metadata as rosbag2 of ROS 2 Jazzy writes them.
+
+The names, their order and the version are those of ``YAML::convert`` in
+rosbag2_storage/include/rosbag2_storage/yaml.hpp; the figures are those that
+rosbag2_cpp/src/rosbag2_cpp/writers/sequential_writer.cpp fills in.
+"""
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import yaml
+
+# What rosbag2 gives as the starting time of a bag without messages [ns].
+_NEVER = 2**63 - 1
+
+
+class _PlainDumper(yaml.SafeDumper):
+    """Write equal parts out in full, where YAML would refer from one to the other."""
+
+    def ignore_aliases(self, data: Any) -> bool:
+        """Tell that nothing is to be replaced by a reference."""
+        return True
+
+
+def to_yaml(value: object) -> str:
+    """Write a value as YAML in block style without references.
+
+    Parameters
+    ----------
+    value : object
+        Plain values in lists and dictionaries.
+
+    Returns
+    -------
+    str
+        The text.
+    """
+    return yaml.dump(value, Dumper=_PlainDumper, sort_keys=False, default_flow_style=False)
+
+
+@dataclass
+class Messages:
+    """How many messages there are, and when they were received.
+
+    Parameters
+    ----------
+    count : int, optional
+        Their number.
+    start, end : int, optional
+        Time of the first and of the last [ns].
+    """
+
+    count: int = 0
+    start: int = _NEVER
+    end: int = 0
+
+    def add(self, time_ns: int) -> None:
+        """Count a message.
+
+        Parameters
+        ----------
+        time_ns : int
+            When it was received [ns].
+        """
+        self.count += 1
+        self.start = min(self.start, time_ns)
+        self.end = max(self.end, time_ns)
+
+    def times(self) -> dict[str, dict[str, int]]:
+        """Give the entries on time."""
+        return {
+            'duration': {'nanoseconds': max(self.end - self.start, 0)},
+            'starting_time': {'nanoseconds_since_epoch': self.start},
+        }
+
+
+@dataclass
+class TopicMetadata:
+    """A topic of a bag.
+
+    Parameters
+    ----------
+    name, type_name : str
+        Its full name and message type.
+    qos : sequence of mappings
+        The quality of service of each publisher.
+    type_hash : str
+        Hash of the message type; empty if it is not known.
+    count : int, optional
+        Number of its messages.
+    """
+
+    name: str
+    type_name: str
+    qos: Sequence[Mapping[str, object]]
+    type_hash: str
+    count: int = 0
+
+    def entry(self) -> dict[str, object]:
+        """Give the entry of the topic."""
+        return {
+            'topic_metadata': {
+                'name': self.name,
+                'type': self.type_name,
+                'serialization_format': 'cdr',
+                'offered_qos_profiles': [dict(profile) for profile in self.qos],
+                'type_description_hash': self.type_hash,
+            },
+            'message_count': self.count,
+        }
+
+
+@dataclass
+class FileMetadata:
+    """A file of a bag.
+
+    Parameters
+    ----------
+    name : str
+        Its name.
+    messages : Messages, optional
+        What is in it.
+    """
+
+    name: str
+    messages: Messages = field(default_factory=Messages)
+
+    def entry(self) -> dict[str, object]:
+        """Give the entry of the file."""
+        times = self.messages.times()
+        return {
+            'path': self.name,
+            'starting_time': times['starting_time'],
+            'duration': times['duration'],
+            'message_count': self.messages.count,
+        }
+
+
+def bag_metadata(
+    messages: Messages,
+    topics: Iterable[TopicMetadata],
+    files: Sequence[FileMetadata],
+    notes: Mapping[str, str],
+) -> dict[str, object]:
+    """Give the metadata of a bag.
+
+    Parameters
+    ----------
+    messages : Messages
+        All messages of the bag.
+    topics : iterable of TopicMetadata
+        Its topics.
+    files : sequence of FileMetadata
+        Its files.
+    notes : mapping of str to str
+        Its custom data.
+
+    Returns
+    -------
+    dict
+        What belongs under ``rosbag2_bagfile_information`` in ``metadata.yaml``.
+    """
+    return {
+        'version': 9,
+        'storage_identifier': 'mcap',
+        **messages.times(),
+        'message_count': messages.count,
+        'topics_with_message_count': [topic.entry() for topic in topics],
+        # Of whole files or messages, which rosbag2 does itself; chunks are MCAP's own matter.
+        'compression_format': '',
+        'compression_mode': '',
+        'relative_file_paths': [file.name for file in files],
+        'files': [file.entry() for file in files],
+        # An empty map of yaml-cpp is written as null.
+        'custom_data': dict(notes) or None,
+        'ros_distro': os.environ.get('ROS_DISTRO', 'jazzy'),
+    }

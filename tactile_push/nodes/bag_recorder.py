@@ -1,0 +1,143 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Records topics into a bag."""
+
+import sys
+import time
+from contextlib import ExitStack
+from datetime import datetime
+
+from rclpy.node import Node
+
+from tactile_push.bags import BagWriter
+from tactile_push.bags.writer import COMPRESSIONS
+from tactile_push.configuration import Parameter
+from tactile_push.nodes.diagnostics import OK, WARN, Diagnostics, Health
+from tactile_push.nodes.parameters import ConfigurationError, declare
+from tactile_push.nodes.process import run
+from tactile_push.nodes.recording import TOPICS, Recording
+
+
+class BagRecorder(Node):
+    """Node: topics in, a bag out.
+
+    It ends with exit status 1 if the bag cannot be written any more; what was written before
+    stays readable. Its health is a warning as long as there is no message.
+    """
+
+    NAME = 'bag_recorder'
+    PARAMETERS = (
+        Parameter(
+            'output',
+            '',
+            '',
+            'folder that the bag makes, not there yet; without one, tactile_push_ and the date',
+            read_only=True,
+        ),
+        Parameter('topics', list(TOPICS), '', 'topics to record if they come up', read_only=True),
+        Parameter(
+            'all', False, '', 'record all topics instead that are not hidden', read_only=True
+        ),
+        Parameter(
+            'compression',
+            'zstd',
+            '',
+            'of the chunks of the file',
+            choices=tuple(COMPRESSIONS),
+            read_only=True,
+        ),
+        Parameter(
+            'max_size',
+            0,
+            'B',
+            'a file that has so many bytes is followed by another; 0 for one file',
+            0,
+            10**15,
+            read_only=True,
+        ),
+        Parameter(
+            'max_duration',
+            0.0,
+            's',
+            'so is a file that is so long; 0 for one file',
+            0.0,
+            1e9,
+            read_only=True,
+        ),
+    )
+
+    def __init__(self) -> None:
+        super().__init__(self.NAME)
+        p = declare(self, self.PARAMETERS)
+        self._output = p.output or f'tactile_push_{datetime.now():%Y_%m_%d-%H_%M_%S}'
+        self._check_topics(p.topics)
+        try:
+            self._writer = BagWriter(
+                self._output,
+                compression=p.compression,
+                max_bytes=p.max_size,
+                max_duration=p.max_duration,
+            )
+        except OSError as error:
+            raise ConfigurationError(
+                f'parameter output: {error.filename}: {error.strerror}, expected a new folder'
+            ) from None
+        self.get_logger().info(f'recording into {self._output}')
+        self._began = time.monotonic()
+        self._recording = Recording(self, None if p.all else p.topics, self._writer)
+        self._diagnostics = Diagnostics(self, self._health, lambda: self._recording.recorder.counts)
+
+    def destroy_node(self) -> None:
+        """Finish the bag and end."""
+        with ExitStack() as stack:
+            stack.callback(super().destroy_node)
+            self._recording.close()
+            self.get_logger().info(f'recorded {self._so_far()} into {self._output}')
+
+    def _check_topics(self, topics: list[str]) -> None:
+        if not topics:
+            raise ConfigurationError('parameter topics: expected the name of a topic, got []')
+        for topic in topics:
+            try:
+                self.resolve_topic_name(topic)
+            except RuntimeError:  # rclpy's RCLError, which is not public
+                raise ConfigurationError(
+                    f'parameter topics: expected names of topics, got {topic!r}'
+                ) from None
+
+    def _health(self) -> Health:
+        values = {
+            'bag': self._output,
+            'files': self._writer.file_count,
+            'size [B]': self._writer.byte_count,
+        }
+        if not self._writer.message_count:
+            return Health(WARN, 'nothing to record yet', values)
+        return Health(OK, 'recording', values)
+
+    def _so_far(self) -> str:
+        duration = time.monotonic() - self._began
+        return (
+            f'{self._writer.message_count} messages in {duration:.1f} s, '
+            f'{self._writer.byte_count / 1e6:.3f} MB,'
+        )
+
+
+def main() -> int:
+    """Run the node as a process."""
+    return run(BagRecorder)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

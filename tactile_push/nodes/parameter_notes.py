@@ -1,0 +1,110 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Asks the package's nodes for their parameters, for whoever wants to note them down."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from rcl_interfaces.srv import GetParameters, ListParameters
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+from rclpy.node import Node
+from rclpy.parameter import parameter_value_to_python
+from rclpy.task import Future
+
+NODES = (
+    'sensor_driver',
+    'contact_geometry',
+    'push_controller',
+    'active_sensing',
+    'sim_plant',
+    'experiment',
+    'bag_recorder',
+    'bag_player',
+)
+LOOK_PERIOD = 0.2  # between looks for nodes that have not been asked [s]
+
+
+class ParameterNotes:
+    """The parameters of the package's nodes, as each gives them the first time it is seen.
+
+    A node that does not answer is left out; nobody waits for it.
+
+    Parameters
+    ----------
+    node : Node
+        The node that asks, and leaves itself out.
+    noted : callable
+        Told all that is known whenever a node has answered: full names without the leading slash
+        to parameters by name.
+    """
+
+    def __init__(self, node: Node, noted: Callable[[dict[str, dict[str, Any]]], None]) -> None:
+        self._node = node
+        self._noted = noted
+        self._known: dict[str, dict[str, Any]] = {}
+        self._questions: dict[str, _Question] = {}
+        steady_clock = Clock(clock_type=ClockType.STEADY_TIME)
+        node.create_timer(LOOK_PERIOD, self._look, clock=steady_clock)
+
+    def _look(self) -> None:
+        there = {
+            f'{namespace.rstrip("/")}/{name}'
+            for name, namespace in self._node.get_node_names_and_namespaces()
+            if name in NODES
+        } - {self._node.get_fully_qualified_name()}
+        for full_name in there - self._questions.keys() - self._known.keys():
+            self._questions[full_name] = _Question(self._node, full_name)
+        for full_name, question in list(self._questions.items()):
+            if question.answer is not None:
+                self._known[full_name] = question.answer
+                self._noted({name.lstrip('/'): values for name, values in self._known.items()})
+            if question.answer is not None or full_name not in there:
+                question.close()
+                del self._questions[full_name]
+            else:
+                question.ask()
+
+
+class _Question:
+    """Asks one node what parameters it has, and then for their values."""
+
+    def __init__(self, node: Node, full_name: str) -> None:
+        self._node = node
+        self._lister = node.create_client(ListParameters, f'{full_name}/list_parameters')
+        self._getter = node.create_client(GetParameters, f'{full_name}/get_parameters')
+        self._asked = False
+        self.answer: dict[str, Any] | None = None
+
+    def ask(self) -> None:
+        """Ask, once, as soon as there is somebody to answer."""
+        if self._asked or not (self._lister.service_is_ready() and self._getter.service_is_ready()):
+            return
+        self._asked = True
+        self._lister.call_async(ListParameters.Request()).add_done_callback(self._on_names)
+
+    def close(self) -> None:
+        """Ask no more."""
+        self._node.destroy_client(self._lister)
+        self._node.destroy_client(self._getter)
+
+    def _on_names(self, future: Future) -> None:
+        names = future.result().result.names
+        request = GetParameters.Request(names=names)
+        self._getter.call_async(request).add_done_callback(partial(self._on_values, names))
+
+    def _on_values(self, names: list[str], future: Future) -> None:
+        values = map(parameter_value_to_python, future.result().values)
+        self.answer = dict(zip(names, values, strict=True))

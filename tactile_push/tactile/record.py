@@ -1,0 +1,47 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""What became of a reading as numbers with names, as it is published and recorded."""
+
+from tactile_push.tactile.contact_finder import REFUSALS
+from tactile_push.tactile.reading import Reading
+
+
+def reading_values(
+    reading: Reading, joint_angle: float, theta: float, refusal: str
+) -> dict[str, float]:
+    """Give all that the contact geometry used and gave for one reading.
+
+    Parameters
+    ----------
+    reading : Reading
+        The sensor's angles [rad].
+    joint_angle : float
+        By how far the joints had turned the finger tip at its moment [rad]; NaN if not known.
+    theta : float
+        Angle of the pushed edge [rad]; NaN if the reading was refused.
+    refusal : str
+        Why it was refused, one of `REFUSALS`.
+
+    Returns
+    -------
+    dict of str to float
+        The numbers by name.
+    """
+    return {
+        'azimuth': reading.azimuth,
+        'elevation': reading.elevation,
+        'joint_angle': joint_angle,
+        'theta': theta,
+        'refusal': float(REFUSALS.index(refusal)),
+    }

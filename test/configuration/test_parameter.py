@@ -1,0 +1,87 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+import math
+
+import pytest
+
+from tactile_push.configuration import (
+    Parameter,
+    config_file,
+    contact_geometry,
+    push_controller,
+    sim_plant,
+    values_of,
+)
+
+GAIN = Parameter('gain', 0.5, 'rad/rad', 'a gain', 0.0, 10.0)
+COUNT = Parameter('count', 3, '', 'a count', 0, 100)
+KIND = Parameter('kind', 'block', '', 'a kind', choices=('block', 'disk'))
+FLAG = Parameter('flag', True, '', 'a flag')
+NAMES = Parameter('names', ['a', 'b'], '', 'names')
+EVERYTHING = [
+    parameter
+    for module in (contact_geometry, push_controller, sim_plant)
+    for parameter in module.PARAMETERS
+]
+
+
+@pytest.mark.parametrize(
+    ('parameter', 'value'),
+    [(GAIN, 0.0), (GAIN, 10.0), (COUNT, 100), (KIND, 'disk'), (FLAG, False), (NAMES, [])],
+)
+def test_a_value_of_its_type_and_range_is_taken(parameter, value):
+    assert getattr(values_of([parameter], {parameter.name: value}), parameter.name) == value
+
+
+@pytest.mark.parametrize(
+    ('parameter', 'value'),
+    [
+        (GAIN, 10.000001),
+        (GAIN, -1e-12),
+        (GAIN, math.nan),
+        (GAIN, math.inf),
+        (GAIN, 1),  # as a node refuses a number without a decimal point
+        (GAIN, True),
+        (GAIN, '0.5'),
+        (COUNT, 101),
+        (COUNT, 3.0),
+        (COUNT, True),
+        (KIND, 'cube'),
+        (KIND, 3),
+        (FLAG, 1),
+        (FLAG, 'true'),
+        (NAMES, 'a'),
+        (NAMES, None),
+    ],
+)
+def test_any_other_is_refused_with_what_was_expected(parameter, value):
+    with pytest.raises(ValueError, match='expected') as refused:
+        values_of([parameter], {parameter.name: value})
+    assert parameter.name in str(refused.value)
+    assert parameter.expected() in str(refused.value)
+
+
+def test_what_is_not_given_has_its_default_and_what_is_not_known_is_left_out():
+    values = values_of([GAIN, COUNT], {'gain': 2.0, 'use_sim_time': True})
+    assert vars(values) == {'gain': 2.0, 'count': 3}
+
+
+def test_every_default_is_a_value():
+    for parameter in EVERYTHING:
+        parameter.check(parameter.default)
+
+
+@pytest.mark.parametrize('name', ['block.yaml', 'disk.yaml', 'loopback.xml', 'demo.rviz'])
+def test_files_are_found(name):
+    assert config_file(name).is_file()

@@ -1,0 +1,98 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""What nodes commanded comes out again, to the bit, of the bag that was recorded meanwhile."""
+
+import signal
+from pathlib import Path
+
+from geometry_msgs.msg import PoseStamped
+from lifecycle_msgs.msg import Transition
+from live import CONFIG, Observer, field, seconds
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import SetParameters
+from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
+
+from tactile_push.bags import BagReader
+from tactile_push.cli import main
+from tactile_push.control import PUSHING, STATES, STOP_REASONS, STOPPED
+from tactile_push.processes import NodeProcesses
+from tactile_push.replay import replay
+
+
+def test_bag_of_an_eventful_run_replays_to_the_bit(
+    nodes: NodeProcesses, observer: Observer, tmp_path: Path
+):
+    states = observer.collect(JointState, 'push_controller/state')
+    device = {'device': str(tmp_path / 'sensor')}
+    bag = tmp_path / 'bag'
+
+    def wait_for_ticks(count: int, state: str) -> None:
+        """Wait for ticks in a row in a state."""
+        seen, index = len(states), float(STATES.index(state))
+
+        def in_a_row() -> bool:
+            new = states[seen:][-count:]
+            return len(new) == count and all(field(s, 'state') == index for s in new)
+
+        observer.wait_for(in_a_row, f'{count} ticks {state}')
+
+    nodes.start('sim_plant', {**device, 'sensor_noise': 0.002}, config=CONFIG / 'block.yaml')
+    nodes.start('sensor_driver', device)
+    nodes.start('contact_geometry', config=CONFIG / 'block.yaml')
+    nodes.start('push_controller', config=CONFIG / 'block.yaml')
+    wait_for_ticks(5, PUSHING)
+    recorder = nodes.start('bag_recorder', {'output': str(bag)})
+    hearing = {'push_controller/state': 2, 'contact_geometry/state': 1}  # the observer, too
+    observer.wait_for(
+        lambda: all(observer.node.count_subscribers(t) >= n for t, n in hearing.items()),
+        'the recorder to listen',
+    )
+    wait_for_ticks(15, PUSHING)
+    driver = nodes.running.pop('sensor_driver')
+    driver.kill()
+    driver.wait()
+    wait_for_ticks(3, STOPPED)
+    nodes.start('sensor_driver', device)
+    wait_for_ticks(10, PUSHING)
+    value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=2.0)
+    request = SetParameters.Request(parameters=[Parameter(name='kd', value=value)])
+    answer = observer.call(SetParameters, 'push_controller/set_parameters', request)
+    assert answer.results[0].successful
+    wait_for_ticks(10, PUSHING)
+    assert observer.change_state('push_controller', Transition.TRANSITION_DEACTIVATE)
+    assert observer.change_state('push_controller', Transition.TRANSITION_ACTIVATE)
+    wait_for_ticks(10, PUSHING)
+    controller = nodes.running['push_controller']
+    controller.send_signal(signal.SIGSTOP)
+    ticks = len(states)
+    contacts = observer.collect(PoseStamped, 'contact')
+    observer.wait_for(  # the others go on, for longer than three periods
+        lambda: contacts and seconds(contacts[-1]) - seconds(states[-1]) > 0.8, 'time to pass'
+    )
+    assert len(states) <= ticks + 1
+    controller.send_signal(signal.SIGCONT)
+    wait_for_ticks(3, STOPPED)
+    assert STOP_REASONS[int(field(states[-1], 'stop_reason'))] == 'ticks lost'
+    assert observer.call(Trigger, 'push_controller/resume', Trigger.Request()).success
+    wait_for_ticks(10, PUSHING)
+    recorder.send_signal(signal.SIGINT)
+    assert recorder.wait(30) == 0
+
+    with BagReader(bag) as reader:
+        (comparison,) = replay(reader, out=tmp_path / 'again')
+    # Until recorder and nodes have found one another nothing can be followed.
+    assert len(comparison.ticks) > 40
+    assert not comparison.different()
+    assert main(['diff', str(bag), str(tmp_path / 'again')]) == 0
