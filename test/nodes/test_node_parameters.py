@@ -40,6 +40,8 @@ NODES = {
     'push_controller': 'PushController',
     'sim_plant': 'SimPlant',
     'experiment': 'Experiment',
+    'bag_recorder': 'BagRecorder',
+    'bag_player': 'BagPlayer',
 }
 DECLARED = [
     pytest.param(parameter, id=f'{node}.{parameter.name}')

@@ -1,0 +1,214 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Publishes a bag with its timing."""
+
+import sys
+from collections import Counter
+
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+from rclpy.expand_topic_name import expand_topic_name
+from rclpy.node import Node
+from rclpy.validate_full_topic_name import validate_full_topic_name
+from std_srvs.srv import SetBool, Trigger
+
+from tactile_push.bags.player import Player
+from tactile_push.bags.reader import BagError, BagReader
+from tactile_push.bags.schedule import CLOCK, Part, part_of, topic_in_bag
+from tactile_push.configuration import Parameter
+from tactile_push.nodes.diagnostics import OK, WARN, Diagnostics, Health
+from tactile_push.nodes.parameters import ConfigurationError, declare
+from tactile_push.nodes.process import run
+from tactile_push.nodes.terminal import Terminal
+
+TERMINAL_PERIOD = 0.05  # between looks at the keyboard [s]
+PAUSE, STEP = (' ',), ('s', '\x1b[C', '\x1bOC')  # the latter two are the right arrow
+SWITCH_INTERVAL = 1e-4  # between threads that want to run [s]
+
+
+class BagPlayer(Node):
+    """Node: publishes the messages of a bag when they are due, and ends with the bag."""
+
+    NAME = 'bag_player'
+    PARAMETERS = (
+        Parameter('bag', '', '', 'folder of the bag, or an .mcap file', read_only=True),
+        Parameter(
+            'rate', 1.0, 's/s', "how fast the bag's time goes by", 0.001, 1000.0, read_only=True
+        ),
+        Parameter(
+            'start',
+            0.0,
+            's',
+            'where to begin, from the beginning of the bag',
+            0.0,
+            1e9,
+            read_only=True,
+        ),
+        Parameter(
+            'duration',
+            0.0,
+            's',
+            'how much to play from there; 0 is to the end',
+            0.0,
+            1e9,
+            read_only=True,
+        ),
+        Parameter('loop', False, '', 'start over at the end, for ever', read_only=True),
+        Parameter(
+            'clock',
+            0.0,
+            'Hz',
+            "how often /clock is published by the bag's time, besides before each message; 0 is "
+            'not at all',
+            0.0,
+            10000.0,
+            read_only=True,
+        ),
+        Parameter('topics', [], '', 'topics to play; all if there are none', read_only=True),
+        Parameter('remap', [], '', 'new names of topics, each as OLD:=NEW', read_only=True),
+        Parameter('start_paused', False, '', 'wait for ~/pause or ~/step', read_only=True),
+    )
+
+    def __init__(self) -> None:
+        super().__init__(self.NAME)
+        self._settings = p = declare(self, self.PARAMETERS)
+        if not p.bag:
+            raise ConfigurationError('parameter bag: expected the folder of a bag')
+        try:
+            bag = BagReader(p.bag, self.get_logger().warning)
+            part = part_of(
+                bag, p.topics, p.start, p.duration, with_clock=p.clock > 0.0, loop=p.loop
+            )
+            self._player = Player(
+                self,
+                part,
+                self._on_finished,
+                rate=p.rate,
+                loop=p.loop,
+                clock_rate=p.clock,
+                paused=p.start_paused,
+                names=self._new_names(part),
+            )
+        except BagError as error:
+            raise ConfigurationError(str(error)) from None
+        self._end = (part.end - bag.start_time) * 1e-9
+        self.create_service(SetBool, '~/pause', self._on_pause)
+        self.create_service(Trigger, '~/step', self._on_step)
+        self._diagnostics = Diagnostics(self, self._health, self._counts)
+        self._terminal = Terminal(self._hold, self._release)
+        if self._terminal.there:
+            steady_clock = Clock(clock_type=ClockType.STEADY_TIME)
+            self.create_timer(TERMINAL_PERIOD, self._serve_terminal, clock=steady_clock)
+
+    def destroy_node(self) -> None:
+        """Stop playing, leave the terminal as it was and end."""
+        self._player.stop()
+        self._terminal.close()
+        super().destroy_node()
+
+    def _new_names(self, part: Part) -> dict[str, str]:
+        names = {topic: topic for topic in part.topics}
+        for word in self._settings.remap:
+            old, sign, new = word.partition(':=')
+            if not (old and sign and new):
+                raise ConfigurationError(f'parameter remap: expected OLD:=NEW, got {word!r}')
+            topic = topic_in_bag(part.bag, old)
+            if topic not in names:
+                raise ConfigurationError(f'parameter remap: {topic} is not played')
+            try:
+                names[topic] = expand_topic_name(new, self.get_name(), self.get_namespace())
+                validate_full_topic_name(names[topic])
+            except ValueError:
+                raise ConfigurationError(
+                    f'parameter remap: expected the name of a topic, got {new!r}'
+                ) from None
+        taken = Counter(names.values())
+        if self._settings.clock > 0.0:
+            taken[CLOCK] += 1
+        name, count = taken.most_common(1)[0]
+        if count > 1:
+            raise ConfigurationError(f'parameter remap: {count} topics would become {name}')
+        return names
+
+    def _on_pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        self._player.pause(request.data)
+        response.success = True
+        response.message = self._words()
+        return response
+
+    def _on_step(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        message = self._player.step()
+        response.success = message is not None
+        response.message = self._words() if message is None else message.topic
+        return response
+
+    def _on_finished(self) -> None:
+        error = self._player.error
+        if error is None:
+            self.context.shutdown()
+        elif isinstance(error, BagError):
+            self._terminal.close()
+            print(f'{self.NAME}: {error}', file=sys.stderr)
+            sys.exit(1)
+        else:
+            raise error
+
+    def _serve_terminal(self) -> None:
+        for key in self._terminal.read_keys():
+            if key in PAUSE:
+                self._player.pause(not self._player.paused)
+            elif key in STEP:
+                self._player.step()
+        self._terminal.show(f'{self._words()}; space pauses and goes on, s steps')
+
+    def _hold(self) -> None:
+        self._was_paused = self._player.paused
+        self._player.pause(True)
+
+    def _release(self) -> None:
+        self._player.pause(self._was_paused)
+
+    def _words(self) -> str:
+        return f'{self._state()}, {self._player.position:.1f} s of {self._end:.1f} s'
+
+    def _state(self) -> str:
+        if self._player.waiting:
+            return 'waiting for subscribers'
+        return 'paused' if self._player.paused else 'playing'
+
+    def _counts(self) -> dict[str, int]:
+        return {'messages': self._player.published, 'late': self._player.late}
+
+    def _health(self) -> Health:
+        values = {
+            'bag': self._settings.bag,
+            'position [s]': f'{self._player.position:.3f}',
+            'rate [s/s]': self._settings.rate,
+        }
+        if self._player.waiting:
+            return Health(WARN, self._state(), values)
+        if self._diagnostics.rates['late']:
+            return Health(WARN, f'{self._state()}, some late', values)
+        return Health(OK, self._state(), values)
+
+
+def main() -> int:
+    """Run the node as a process."""
+    # Threads get their turn in time for a message.
+    sys.setswitchinterval(SWITCH_INTERVAL)
+    return run(BagPlayer)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

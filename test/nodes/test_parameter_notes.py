@@ -1,0 +1,113 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Asking nodes of this process for their parameters."""
+
+import random
+import re
+import time
+from pathlib import Path
+
+import pytest
+
+rclpy = pytest.importorskip('rclpy')
+
+from rclpy.context import Context  # noqa: E402
+from rclpy.executors import SingleThreadedExecutor  # noqa: E402
+
+from tactile_push.nodes.parameter_notes import NODES, ParameterNotes  # noqa: E402
+
+
+class Graph:
+    """A node that asks, and others; all run only while the test spins them."""
+
+    def __init__(self):
+        self.context = Context()
+        rclpy.init(context=self.context, domain_id=random.randint(1, 100))
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.nodes = []
+        self.asker = self.add('bag_recorder')
+
+    def add(self, name, *, namespace='', answers=True, **parameters):
+        node = rclpy.create_node(name, context=self.context, namespace=namespace)
+        for key, value in parameters.items():
+            node.declare_parameter(key, value)
+        self.nodes.append(node)
+        if answers:
+            self.executor.add_node(node)
+        return node
+
+    def spin_until(self, condition, patience=60.0):
+        deadline = time.monotonic() + patience
+        while not condition():
+            if time.monotonic() > deadline:
+                return False
+            self.executor.spin_once(timeout_sec=0.02)
+        return True
+
+
+@pytest.fixture
+def graph():
+    graph = Graph()
+    yield graph
+    graph.executor.shutdown()
+    for node in graph.nodes:
+        node.destroy_node()
+    rclpy.shutdown(context=graph.context)
+
+
+def mine(parameters):
+    """Return the parameters that rclpy has not declared by itself."""
+    return {
+        key: value
+        for key, value in parameters.items()
+        if key not in ('use_sim_time', 'start_type_description_service')
+    }
+
+
+def test_each_of_the_packages_nodes_is_asked_once_and_others_are_not(graph):
+    notes = []
+    ParameterNotes(graph.asker, notes.append)
+    graph.add('push_controller', kp=0.05, joint_names=['a', 'b'], autostart=True)
+    graph.add('sim_plant', namespace='/left', object='block', seed=3)
+    graph.add('camera', exposure=1)
+    assert graph.spin_until(lambda: notes and len(notes[-1]) == 2)
+    assert {name: mine(values) for name, values in notes[-1].items()} == {
+        'push_controller': {'kp': 0.05, 'joint_names': ['a', 'b'], 'autostart': True},
+        'left/sim_plant': {'object': 'block', 'seed': 3},
+    }
+    graph.add('sensor_driver', baud_rate=9600)
+    assert graph.spin_until(lambda: len(notes[-1]) == 3)
+    assert mine(notes[-1]['sensor_driver']) == {'baud_rate': 9600}
+    assert len(notes) == 3
+    # What asked has been put away.
+    assert list(graph.asker.clients) == []
+
+
+def test_node_that_does_not_answer_is_left_out_and_nobody_waits(graph):
+    notes = []
+    ParameterNotes(graph.asker, notes.append)
+    silent = graph.add('push_controller', answers=False, kp=0.05)
+    graph.add('sim_plant', seed=3)
+    assert graph.spin_until(lambda: notes)
+    assert not graph.spin_until(lambda: len(notes[-1]) > 1, patience=1.0)
+    assert list(notes[-1]) == ['sim_plant']
+    graph.nodes.remove(silent)
+    silent.destroy_node()
+    assert graph.spin_until(lambda: not list(graph.asker.clients))
+
+
+def test_all_nodes_of_the_package_are_known():
+    setup = (Path(__file__).resolve().parents[2] / 'setup.py').read_text()
+    installed = re.search(r'NODES = \((.*?)\)', setup, re.DOTALL).group(1)
+    assert set(re.findall(r"'(\w+)'", installed)) <= set(NODES)
