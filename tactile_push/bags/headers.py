@@ -1,0 +1,79 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""When the header of a message says that it was made."""
+
+import re
+import struct
+
+from tactile_push.bags.reader import BagError, BagReader, Message
+
+# What comes before the first field of a definition: remarks, empty lines and constants.
+_PREAMBLE = re.compile(r'(?:[ \t]*(?:#[^\n]*)?\n|[ \t]*\S+[ \t]+\w+[ \t]*=[^\n]*\n)*')
+_HEADER = re.compile(r'[ \t]*(?:std_msgs/(?:msg/)?)?Header[ \t]+\w+')
+
+_STAMP = {0: struct.Struct('>iI'), 1: struct.Struct('<iI')}  # by the encapsulation's last bit
+_STAMP_AT = 4  # behind the encapsulation header
+
+
+class HeaderStamps:
+    """The stamps of a bag's messages, read without decoding them.
+
+    A type has a header if that is its first field, as is the custom.
+
+    Parameters
+    ----------
+    bag : BagReader
+        The bag.
+    """
+
+    def __init__(self, bag: BagReader) -> None:
+        self._path = bag.path
+        self._topics = {name for name, topic in bag.topics.items() if _begins(topic.definition)}
+
+    def __contains__(self, topic: str) -> bool:
+        """Return whether the messages of a topic have a header."""
+        return topic in self._topics
+
+    def of(self, message: Message) -> int:
+        """Return the stamp of a message of a topic with headers.
+
+        Parameters
+        ----------
+        message : Message
+            A message of the bag.
+
+        Returns
+        -------
+        int
+            The stamp [ns].
+
+        Raises
+        ------
+        BagError
+            If the message ends before its stamp.
+        """
+        try:
+            sec, nanosec = _STAMP[message.data[1] & 1].unpack_from(message.data, _STAMP_AT)
+        except (IndexError, struct.error):
+            raise BagError(
+                f'{self._path}: a message of {message.topic} at {message.log_time} ns has '
+                f'{len(message.data)} bytes, expected a header'
+            ) from None
+        return sec * 10**9 + nanosec
+
+
+def _begins(definition: str) -> bool:
+    """Return whether the first field of a definition is a header."""
+    preamble = _PREAMBLE.match(definition)
+    return bool(preamble and _HEADER.match(definition, preamble.end()))

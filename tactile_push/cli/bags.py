@@ -1,0 +1,96 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""What the commands that read bags have in common: progress, warnings, tables, JSON."""
+
+import math
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from rich.console import Console
+from rich.progress import Progress
+
+_WIDTH_OF_FILES = 160  # columns, where the output is no terminal
+
+
+@contextmanager
+def reading(messages: int) -> Iterator[Callable[[int], None]]:
+    """Show a progress bar on standard error, if that is a terminal.
+
+    Parameters
+    ----------
+    messages : int
+        How many there are to read.
+
+    Yields
+    ------
+    callable
+        To be told how many have been read.
+    """
+    console = Console(stderr=True)
+    with Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
+        task = bar.add_task('reading', total=messages)
+        yield lambda done: bar.update(task, completed=done)
+
+
+def warner(command: str) -> Callable[[str], None]:
+    """Give what prints a line about a bag that can be read in spite of it.
+
+    Parameters
+    ----------
+    command : str
+        Name of the command.
+
+    Returns
+    -------
+    callable
+        Takes the line.
+    """
+    return lambda line: print(f'tactile_push {command}: warning: {line}', file=sys.stderr)
+
+
+def wide_console() -> Console:
+    """Give a console for tables.
+
+    Returns
+    -------
+    rich.console.Console
+        As wide as the terminal; where there is none, wide enough.
+    """
+    return Console(width=None if sys.stdout.isatty() else _WIDTH_OF_FILES)
+
+
+def plain(value: Any) -> Any:
+    """Give a value as JSON can say it: numbers that it does not know as text.
+
+    Parameters
+    ----------
+    value : object
+        Numbers, text, bytes, and lists, tuples and dictionaries of them.
+
+    Returns
+    -------
+    object
+        The same for JSON; ``'nan'``, ``'inf'``, ``'-inf'`` for what are no numbers there.
+    """
+    if isinstance(value, dict):
+        return {key: plain(entry) for key, entry in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(entry) for entry in value]
+    if isinstance(value, bytes):
+        return list(value)
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(value)
+    return value

@@ -1,0 +1,67 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Stamps of headers against messages that rosbags encoded."""
+
+import pytest
+from bag_making import TYPES, encode, of_type, write_bag
+from rosbags.interfaces import Nodetype
+
+from tactile_push.bags import BagError, BagReader
+from tactile_push.bags.headers import HeaderStamps
+from tactile_push.bags.reader import Message
+
+STAMP = 1_732_540_000_123_456_789
+
+
+@pytest.fixture
+def stamps(tmp_path):
+    """Return the stamps of a bag with topics of several types and no messages."""
+    types = {
+        '/joints': 'sensor_msgs/msg/JointState',
+        '/marker': 'visualization_msgs/msg/Marker',  # constants and comments come first
+        '/markers': 'visualization_msgs/msg/MarkerArray',  # the header is in its parts
+        '/clock': 'rosgraph_msgs/msg/Clock',
+        '/header': 'std_msgs/msg/Header',
+        '/empty': 'std_msgs/msg/Empty',
+    }
+    bag = write_bag(tmp_path / 'bag', {name: (kind, []) for name, kind in types.items()})
+    with BagReader(bag) as reader:
+        yield HeaderStamps(reader)
+
+
+def test_header_is_found_where_it_is_the_first_field(stamps):
+    assert '/joints' in stamps
+    assert '/marker' in stamps
+    for without in ('/markers', '/clock', '/header', '/empty', '/nowhere'):
+        assert without not in stamps
+
+
+@pytest.mark.parametrize('stamp', [0, 1, STAMP, -1, -(2**31) * 10**9, 2**31 * 10**9 - 1])
+@pytest.mark.parametrize('kind', ['sensor_msgs/msg/JointState', 'visualization_msgs/msg/Marker'])
+def test_stamp_of_message(stamps, kind, stamp):
+    assert stamps.of(Message('/joints', 0, 0, encode(kind, stamp))) == stamp
+
+
+def test_stamp_of_big_endian_message(stamps):
+    header = {'stamp': {'sec': 12, 'nanosec': 34}}
+    message = of_type((Nodetype.NAME, 'sensor_msgs/msg/JointState'), {'header': header})
+    data = TYPES.serialize_cdr(message, 'sensor_msgs/msg/JointState', little_endian=False)
+    assert stamps.of(Message('/joints', 0, 0, bytes(data))) == 12_000_000_034
+
+
+@pytest.mark.parametrize('length', range(12))
+def test_message_without_room_for_a_stamp_is_refused(stamps, length):
+    data = encode('sensor_msgs/msg/JointState', STAMP)[:length]
+    with pytest.raises(BagError, match=f'/joints at 7 ns has {length} bytes'):
+        stamps.of(Message('/joints', 7, 0, data))

@@ -1,0 +1,111 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""The words of `tactile_push record`, and what it becomes."""
+
+import os
+import sys
+
+import pytest
+import yaml
+
+from tactile_push.cli import main
+
+
+@pytest.fixture
+def become(monkeypatch):
+    """Return a function that gives the command line that a command turns into."""
+
+    class BecameError(Exception):
+        pass
+
+    def execv(program, command):
+        assert program == sys.executable
+        raise BecameError(command)
+
+    monkeypatch.setattr(os, 'execv', execv)
+
+    def run(*words):
+        with pytest.raises(BecameError) as became:
+            main(['record', *words])
+        return became.value.args[0]
+
+    return run
+
+
+def parameters(command):
+    """Return the parameters as ROS reads them."""
+    assert command[1:4] == ['-m', 'tactile_push.nodes.bag_recorder', '--ros-args']
+    words = command[4:]
+    assert set(words[::2]) <= {'-p'}
+    given = (word.partition(':=') for word in words[1::2])
+    return {name: yaml.safe_load(value) for name, _, value in given}
+
+
+def test_without_words_the_node_decides(become):
+    assert parameters(become()) == {'compression': 'zstd'}
+
+
+def test_every_word_becomes_a_parameter(become, tmp_path):
+    out = tmp_path / 'a bag: "quoted"'
+    command = become(
+        *('-o', str(out), '--compression', 'lz4', '--max-size', '2.5', '--max-duration', '60'),
+        *('--use-sim-time', '/tactile', 'contact'),
+    )
+    assert parameters(command) == {
+        'output': str(out),
+        'topics': ['/tactile', 'contact'],
+        'compression': 'lz4',
+        'max_size': 2_500_000,
+        'max_duration': 60.0,
+        'use_sim_time': True,
+    }
+    assert isinstance(parameters(command)['max_duration'], float)  # as the node insists
+    assert parameters(become('--all')) == {'compression': 'zstd', 'all': True}
+
+
+@pytest.mark.parametrize(
+    'words, expected',
+    [
+        (['--compression', 'gzip'], '--compression: invalid choice'),
+        (['--max-size', '0'], '--max-size: expected megabytes, more than 0, got 0'),
+        (['--max-size', 'nan'], '--max-size: expected megabytes'),
+        (['--max-duration', '-1'], '--max-duration: expected seconds, more than 0, got -1'),
+        (['--max-duration', 'long'], '--max-duration: expected seconds'),
+        (['--all', 'tactile'], '--all: expected no topics'),
+    ],
+)
+def test_bad_words_are_refused_in_one_line(capsys, words, expected):
+    try:
+        status = main(['record', *words])
+    except SystemExit as ended:
+        status = ended.code
+    assert status == 2
+    out, err = capsys.readouterr()
+    assert out == ''
+    assert err.count('\n') == 1
+    assert expected in err
+
+
+@pytest.mark.parametrize('kind', ['folder', 'file', 'broken link'])
+def test_what_is_there_is_never_overwritten(capsys, tmp_path, kind):
+    out = tmp_path / 'there'
+    if kind == 'folder':
+        out.mkdir()
+    elif kind == 'file':
+        out.write_text('precious')
+    else:
+        out.symlink_to('nowhere')
+    assert main(['record', '-o', str(out)]) == 2
+    err = capsys.readouterr().err
+    assert err == f'tactile_push record: --out: {out}: is there already, expected a new folder\n'
