@@ -1,0 +1,147 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""`tactile_push replay`: a bag's readings through geometry and law again."""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tactile_push.cli.arguments import Commands, number
+
+if TYPE_CHECKING:
+    from tactile_push.replay import Comparison
+
+GAINS = ('kp', 'kd')
+
+
+def add(commands: Commands) -> None:
+    """Add the command.
+
+    Parameters
+    ----------
+    commands : argparse subparsers
+        Where it belongs.
+    """
+    replay = commands.add_parser(
+        'replay',
+        help="run a bag's readings through geometry and control law again",
+        description='Feeds the recorded readings through the code that the nodes run, on the '
+        'recorded stamps, without nodes and without waiting, and says what the law would have '
+        'commanded beside what was commanded. The same bag gives the same commands to the bit.',
+    )
+    option = replay.add_argument
+    option('bag', type=Path, metavar='BAG', help='folder of a bag, or one of its files')
+    gain = number('a finite gain of 0 or more', 0.0, sys.float_info.max)
+    option(
+        '--kp', type=gain, metavar='X', help='proportional gain [rad/rad] (default: as recorded)'
+    )
+    option('--kd', type=gain, metavar='X', help='derivative gain [rad/rad] (default: as recorded)')
+    option(
+        '--config',
+        type=Path,
+        metavar='FILE',
+        help='ROS parameter file with values for contact_geometry and push_controller to use '
+        'instead of the recorded ones',
+    )
+    option(
+        '-o',
+        '--out',
+        type=Path,
+        metavar='DIR',
+        help='write a bag, in which what was computed again replaces what was recorded',
+    )
+    option(
+        '--json',
+        metavar='FILE|-',
+        help='write every control period as one JSON object in SI units; - prints it instead of '
+        'the summary',
+    )
+    replay.set_defaults(run=_replay)
+
+
+def _replay(options: argparse.Namespace) -> int:
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from tactile_push.bags import BagError, BagReader
+    from tactile_push.replay import replay
+
+    def warn(line: str) -> None:
+        print(f'tactile_push replay: {line}', file=sys.stderr)
+
+    gains = {name: getattr(options, name) for name in GAINS if getattr(options, name) is not None}
+    try:
+        with BagReader(options.bag, warn) as bag, Progress(console=Console(stderr=True)) as bar:
+            task = bar.add_task('replay', total=sum(bag.counts.values()))
+            comparisons = replay(
+                bag,
+                config=options.config,
+                controller=gains,
+                out=options.out,
+                progress=lambda count: bar.update(task, completed=count),
+            )
+            bar.update(task, completed=sum(bag.counts.values()))
+        if options.json is not None:
+            _write_json(options.json, comparisons)
+    except (BagError, ValueError) as error:
+        warn(str(error))
+        return 2
+    except OSError as error:
+        warn(f'{error.filename}: {error.strerror}')
+        return 2
+    if options.json != '-':
+        _print(comparisons)
+    return 0
+
+
+def _write_json(file: str, comparisons: 'list[Comparison]') -> None:
+    text = json.dumps({'fingers': [comparison.as_json() for comparison in comparisons]}) + '\n'
+    if file == '-':
+        sys.stdout.write(text)
+    else:
+        Path(file).write_text(text)
+
+
+def _print(comparisons: 'list[Comparison]') -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console()
+    for comparison in comparisons:
+        table = Table(show_header=False, title=comparison.finger or None)
+
+        def row(label: str, value: object, table: Table = table) -> None:
+            table.add_row(label, str(value))
+
+        different = comparison.different()
+        row('readings', comparison.readings)
+        row('contacts', comparison.contacts)
+        for reason, count in sorted(comparison.refused.items()):
+            row(f'refused: {reason}', count)
+        row('control periods', len(comparison.ticks))
+        if comparison.kept:
+            row('before them, kept as recorded', comparison.kept)
+        row('commands that differ', len(different))
+        if different:
+            first = different[0]
+            largest = max(different, key=lambda tick: abs(tick.v_x - tick.v_x_recorded))
+            for label, tick in (('first', first), ('largest', largest)):
+                row(
+                    f'{label} difference',
+                    f'{1000.0 * tick.v_x:.3f} mm/s instead of '
+                    f'{1000.0 * tick.v_x_recorded:.3f} mm/s after {tick.time:.2f} s',
+                )
+        console.print(table)

@@ -1,0 +1,127 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""What the law would have commanded beside what was commanded."""
+
+import math
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from tactile_push.control import Tick
+
+
+class ReplayedTick(NamedTuple):
+    """A control period of the replay beside the recorded one, NaN where there is none.
+
+    Parameters
+    ----------
+    time : float
+        Since the beginning of the bag [s].
+    theta, phi : float
+        What the law used and gave [rad].
+    v_x, v_x_recorded : float
+        What it commands now, and what was commanded then [m/s].
+    state, stop_reason : str
+        As it is now.
+    """
+
+    time: float
+    theta: float
+    phi: float
+    v_x: float
+    v_x_recorded: float
+    state: str
+    stop_reason: str
+
+
+@dataclass
+class Comparison:
+    """How the commands of a finger compare.
+
+    Parameters
+    ----------
+    finger : str
+        Its namespace, '' for the root.
+
+    Attributes
+    ----------
+    ticks : list of ReplayedTick
+        The control periods.
+    kept : int
+        Control periods at the bag's beginning that depend on what was before, kept as recorded.
+    readings, contacts : int
+        Readings replayed, and contacts found in them.
+    refused : dict of str to int
+        Readings refused, by reason.
+    """
+
+    finger: str
+    ticks: list[ReplayedTick] = field(default_factory=list)
+    kept: int = 0
+    readings: int = 0
+    contacts: int = 0
+    refused: dict[str, int] = field(default_factory=dict)
+
+    def add(self, time: float, tick: Tick, recorded: Tick | None) -> None:
+        """Take a control period.
+
+        Parameters
+        ----------
+        time : float
+            Since the beginning of the bag [s].
+        tick : Tick
+            As it is now.
+        recorded : Tick or None
+            As it was.
+        """
+        self.ticks.append(
+            ReplayedTick(
+                time,
+                tick.theta,
+                tick.phi,
+                _number(tick.v_x),
+                _number(recorded.v_x) if recorded else math.nan,
+                tick.state,
+                tick.stop_reason,
+            )
+        )
+
+    def different(self) -> list[ReplayedTick]:
+        """Give the control periods whose command is not to the bit what was commanded."""
+        return [
+            tick
+            for tick in self.ticks
+            if tick.v_x != tick.v_x_recorded
+            and not (math.isnan(tick.v_x) and math.isnan(tick.v_x_recorded))
+        ]
+
+    def as_json(self) -> dict[str, object]:
+        """Give it all as plain values, SI units; null where there is no number."""
+        different = self.different()
+        return {
+            'finger': self.finger,
+            'readings': self.readings,
+            'contacts': self.contacts,
+            'refused': self.refused,
+            'kept': self.kept,
+            'different': len(different),
+            'ticks': [{k: _plain(v) for k, v in tick._asdict().items()} for tick in self.ticks],
+        }
+
+
+def _number(v_x: float | None) -> float:
+    return math.nan if v_x is None else v_x
+
+
+def _plain(value: object) -> object:
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,0 +1,133 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Parameters of a replay: those of the recorded nodes, and those that somebody wants instead."""
+
+import difflib
+import json
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from tactile_push.configuration.contact_geometry import PARAMETERS as OF_GEOMETRY
+from tactile_push.configuration.push_controller import PARAMETERS as OF_CONTROLLER
+
+NODES = {'contact_geometry': OF_GEOMETRY, 'push_controller': OF_CONTROLLER}
+NOTE = 'tactile_push.parameters'  # of a bag
+
+ByNode = dict[str, dict[str, Any]]  # values by node and name
+
+
+def recorded_parameters(notes: Mapping[str, str], namespace: str) -> ByNode:
+    """Give the parameters of a finger's nodes as the bag has them.
+
+    Parameters
+    ----------
+    notes : mapping of str to str
+        The bag's notes.
+    namespace : str
+        Namespace with a slash at either end.
+
+    Returns
+    -------
+    dict
+        The values by node and name; none of a node that was not there.
+    """
+    everything = json.loads(notes.get(NOTE, '{}'))
+    return {node: everything.get(f'{namespace}{node}'.lstrip('/'), {}) for node in NODES}
+
+
+def read_config(file: Path, namespace: str) -> ByNode:
+    """Read the parameters of a finger's nodes from a ROS parameter file.
+
+    Parameters
+    ----------
+    file : path
+        The file, as `--params-file` takes it.
+    namespace : str
+        Namespace with a slash at either end.
+
+    Returns
+    -------
+    dict
+        The values by node and name.
+
+    Raises
+    ------
+    ValueError
+        If it is no such file, or has a name that looks like a slip.
+    OSError
+        If it cannot be read.
+    """
+    try:
+        document = yaml.safe_load(file.read_text())
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise ValueError(f'{file}: no YAML: {" ".join(str(error).split())}') from None
+    values: ByNode = {node: {} for node in NODES}
+    for pattern, section in document.items() if isinstance(document, dict) else ():
+        for node in NODES:
+            if _matches(str(pattern), f'{namespace}{node}'):
+                given = section.get('ros__parameters') if isinstance(section, dict) else None
+                if not isinstance(given, dict):
+                    raise ValueError(f'{file}: {pattern}: expected ros__parameters: with values')
+                values[node].update(given)
+    known = [parameter.name for parameters in NODES.values() for parameter in parameters]
+    for name in {name for given in values.values() for name in given} - set(known):
+        similar = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
+        if similar:
+            raise ValueError(f'{file}: {name}: unknown, did you mean {similar[0]}?')
+    return values
+
+
+def changed_parameters(event: Any) -> tuple[str, dict[str, Any]]:
+    """Read a message of /parameter_events.
+
+    Parameters
+    ----------
+    event : rcl_interfaces/ParameterEvent
+        The message.
+
+    Returns
+    -------
+    node : str
+        Full name of the node.
+    values : dict of str to object
+        Its changed values by name.
+    """
+    fields = (
+        '',
+        'bool_value',
+        'integer_value',
+        'double_value',
+        'string_value',
+        'byte_array_value',
+        'bool_array_value',
+        'integer_array_value',
+        'double_array_value',
+        'string_array_value',
+    )
+    return event.node, {
+        changed.name: getattr(changed.value, fields[changed.value.type])
+        for changed in event.changed_parameters
+        if 0 < changed.value.type < len(fields)
+    }
+
+
+def _matches(pattern: str, node: str) -> bool:
+    """Tell whether a section is for a node: `**` stands for any names, `*` for one."""
+    pattern = '/' + pattern.lstrip('/')
+    expression = re.escape(pattern).replace(r'\*\*', '.*').replace(r'\*', '[^/]*')
+    return re.fullmatch(expression.replace('/.*/', '/(.*/)?'), node) is not None

@@ -1,0 +1,176 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Goes through a bag, replays its fingers, and writes a bag with what comes out."""
+
+import os
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from tactile_push.bags import BagError, BagReader, BagWriter, Message, schema_text
+from tactile_push.replay.comparison import Comparison
+from tactile_push.replay.finger import INPUTS, OUTPUTS, Finger
+from tactile_push.replay.parameters import (
+    changed_parameters,
+    read_config,
+    recorded_parameters,
+)
+from tactile_push.stamps import epoch_of
+
+EVENTS = '/parameter_events'
+READINGS = {'tactile', 'contact_geometry/state', 'contact'}  # of which a replay needs one
+
+
+def replay(
+    bag: BagReader,
+    *,
+    config: Path | None = None,
+    controller: Mapping[str, Any] | None = None,
+    out: str | os.PathLike[str] | None = None,
+    progress: Callable[[int], None] = lambda count: None,
+) -> list[Comparison]:
+    """Run a bag's readings through geometry and law again.
+
+    The readings go through the code that the nodes run, on the recorded stamps, in the recorded
+    order, and without waiting: the result is the same every time, to the bit. Where nothing else
+    is asked for and the bag has `contact_geometry/state` and `push_controller/state`, it is what
+    the nodes gave.
+
+    Parameters
+    ----------
+    bag : BagReader
+        The bag, with `tactile` or `contact` of at least one finger.
+    config : path, optional
+        ROS parameter file with values to use instead of the recorded ones.
+    controller : mapping of str to object, optional
+        Values of parameters of `push_controller` to use instead.
+    out : path, optional
+        Folder of the bag to write, not there yet.
+    progress : callable, optional
+        Told how many messages have been read.
+
+    Returns
+    -------
+    list of Comparison
+        One for each finger.
+
+    Raises
+    ------
+    BagError
+        If there is nothing to replay or the bag cannot be read.
+    ValueError
+        If a value of a parameter is refused.
+    OSError
+        If a file cannot be read, or the new bag cannot be written.
+    """
+    fingers: dict[str, Finger] = {}
+    found = _namespaces(bag)
+    if not found:
+        raise BagError(f'{bag.path}: nothing to replay, expected a topic tactile or contact')
+    with ExitStack() as stack:
+        parameters = {}
+        for namespace in found:
+            given = recorded_parameters(bag.notes, namespace)
+            wanted = read_config(config, namespace) if config else {node: {} for node in given}
+            wanted['push_controller'].update(controller or {})
+            parameters[namespace] = {node: given[node] | wanted[node] for node in given}, wanted
+        begin = bag.start_time, epoch_of(bag.start_time // 10**9)
+        for namespace, (given, wanted) in parameters.items():
+            fingers[namespace] = Finger(
+                namespace,
+                found[namespace],
+                given,
+                set(wanted['push_controller']),
+                begin,
+                bag.decode,
+            )
+        if out is not None:
+            writer = stack.enter_context(BagWriter(out))
+            _add_topics(writer, bag, found)
+            for key, text in bag.notes.items():
+                writer.note(key, text)
+            for namespace, finger in fingers.items():
+                finger.write = partial(_write, writer, namespace)
+        inputs = {f'{n}{topic}': (n, topic) for n in found for topic in INPUTS}
+        wanted_topics = None if out is not None else {*inputs, EVENTS}
+        for count, message in enumerate(bag.messages(wanted_topics)):
+            if count % 1000 == 0:
+                progress(count)
+            if message.topic in inputs:
+                namespace, topic = inputs[message.topic]
+                fingers[namespace].take(topic, message)
+                if topic not in OUTPUTS and out is not None:
+                    _copy(writer, message)
+            else:
+                if message.topic == EVENTS:
+                    _change(fingers, parameters, bag.decode(message))
+                if out is not None:
+                    _copy(writer, message)
+        for finger in fingers.values():
+            finger.finish()
+    return [finger.comparison for finger in fingers.values()]
+
+
+def _namespaces(bag: BagReader) -> dict[str, set[str]]:
+    """Find the fingers, and the topics of each that can be replayed."""
+    found: dict[str, set[str]] = {}
+    for name, topic in bag.topics.items():
+        for known, type_name in INPUTS.items():
+            if name.endswith(f'/{known}') and bag.counts[name]:
+                if topic.type_name != type_name:
+                    raise BagError(
+                        f'{bag.path}: {name}: expected {type_name}, got {topic.type_name}'
+                    )
+                found.setdefault(name.removesuffix(known), set()).add(known)
+    return {n: topics for n, topics in found.items() if topics & READINGS}
+
+
+def _add_topics(writer: BagWriter, bag: BagReader, found: Mapping[str, set[str]]) -> None:
+    for topic in bag.topics.values():
+        writer.add_topic(
+            topic.name,
+            topic.type_name,
+            qos=topic.qos,
+            type_hash=topic.type_hash,
+            definition=topic.definition,
+        )
+    for namespace in found:
+        for output in OUTPUTS:
+            name = f'{namespace}{output}'
+            if name not in bag.topics:
+                writer.add_topic(name, INPUTS[output], definition=schema_text(INPUTS[output]))
+
+
+def _change(
+    fingers: Mapping[str, Finger],
+    parameters: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any]]],
+    event: Any,
+) -> None:
+    """Let a finger's nodes know of parameters that changed and are not wanted otherwise."""
+    name, changed = changed_parameters(event)
+    for namespace, finger in fingers.items():
+        node = name.removeprefix(namespace)
+        if name.startswith(namespace) and '/' not in node:
+            wanted = parameters[namespace][1].get(node, {})
+            finger.change(node, {k: v for k, v in changed.items() if k not in wanted})
+
+
+def _write(writer: BagWriter, namespace: str, topic: str, data: bytes, log_time: int) -> None:
+    writer.write(f'{namespace}{topic}', data, log_time, log_time)
+
+
+def _copy(writer: BagWriter, message: Message) -> None:
+    writer.write(message.topic, message.data, message.log_time, message.publish_time)

@@ -1,0 +1,101 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+import json
+from types import SimpleNamespace
+
+import pytest
+
+from tactile_push.replay.parameters import (
+    changed_parameters,
+    read_config,
+    recorded_parameters,
+)
+
+
+def test_parameters_of_a_finger_are_those_of_its_namespace():
+    notes = {
+        'tactile_push.parameters': json.dumps(
+            {
+                'push_controller': {'kp': 0.05},
+                'left/push_controller': {'kp': 0.06},
+                'left/contact_geometry': {'finger_radius': 0.01},
+            }
+        )
+    }
+    assert recorded_parameters(notes, '/')['push_controller'] == {'kp': 0.05}
+    assert recorded_parameters(notes, '/')['contact_geometry'] == {}
+    assert recorded_parameters(notes, '/left/')['push_controller'] == {'kp': 0.06}
+    assert recorded_parameters(notes, '/left/')['contact_geometry'] == {'finger_radius': 0.01}
+    assert recorded_parameters({}, '/')['push_controller'] == {}
+
+
+@pytest.mark.parametrize(
+    ('section', 'namespace', 'meant'),
+    [
+        ('push_controller', '/', True),
+        ('/push_controller', '/', True),
+        ('/**', '/', True),
+        ('/**/push_controller', '/', True),
+        ('/**/push_controller', '/left/', True),
+        ('/*/push_controller', '/left/', True),
+        ('/left/push_controller', '/left/', True),
+        ('/left/push_controller', '/', False),
+        ('push_controller', '/left/', False),
+        ('/**/sim_plant', '/', False),
+        ('/**/my_push_controller', '/', False),
+    ],
+)
+def test_sections_are_for_whom_rcl_takes_them_to_be(tmp_path, section, namespace, meant):
+    file = tmp_path / 'gains.yaml'
+    file.write_text(f'{section}:\n  ros__parameters:\n    kp: 0.07\n')
+    values = read_config(file, namespace)
+    assert values['push_controller'] == ({'kp': 0.07} if meant else {})
+
+
+@pytest.mark.parametrize(
+    ('text', 'words'),
+    [
+        ('/**:\n  ros__parameters:\n    theta_desird: 0.1\n', 'did you mean theta_desired'),
+        ('/**:\n  kp: 0.1\n', 'expected ros__parameters'),
+        ('/**: [1, 2]\n', 'expected ros__parameters'),
+        ('a: [1', 'no YAML'),
+        ('\x00', 'no YAML'),
+    ],
+)
+def test_file_that_says_nothing_of_use_is_refused_with_the_place(tmp_path, text, words):
+    file = tmp_path / 'gains.yaml'
+    file.write_text(text)
+    with pytest.raises(ValueError, match=words) as refused:
+        read_config(file, '/')
+    assert str(file) in str(refused.value)
+    assert '\n' not in str(refused.value)
+
+
+def test_event_tells_what_changed():
+    def value(kind, **field):
+        return SimpleNamespace(type=kind, **field)
+
+    event = SimpleNamespace(
+        node='/left/push_controller',
+        changed_parameters=[
+            SimpleNamespace(name='kd', value=value(3, double_value=4.5)),
+            SimpleNamespace(name='max_ticks_lost', value=value(2, integer_value=7)),
+            SimpleNamespace(name='autostart', value=value(1, bool_value=False)),
+            SimpleNamespace(name='gone', value=value(0)),
+        ],
+    )
+    assert changed_parameters(event) == (
+        '/left/push_controller',
+        {'kd': 4.5, 'max_ticks_lost': 7, 'autostart': False},
+    )
