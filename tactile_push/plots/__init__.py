@@ -11,20 +11,27 @@
 # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
 # See the License for the specific language governing permissions and
 # limitations under the License.
-"""Figures."""
+"""Figures, and the page that reports a run."""
 
 from tactile_push.plots.figures import save_figures
 from tactile_push.plots.gains import gain_figure
 from tactile_push.plots.history import plot_history
 from tactile_push.plots.limit_surfaces import limit_surface_figure, section_figure
 from tactile_push.plots.motion_cones import motion_cone_figure
+from tactile_push.plots.report import report_html
+from tactile_push.plots.report_data import Episode, Run, Scene, Series
 from tactile_push.plots.simulations import step_response_figure, trajectory_figure
 
 __all__ = [
+    'Episode',
+    'Run',
+    'Scene',
+    'Series',
     'gain_figure',
     'limit_surface_figure',
     'motion_cone_figure',
     'plot_history',
+    'report_html',
     'save_figures',
     'section_figure',
     'step_response_figure',

@@ -1,0 +1,228 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""A run as its bag tells it."""
+
+import json
+from collections.abc import Callable, Mapping
+from datetime import datetime, timezone
+
+import numpy as np
+
+from tactile_push.bags import BagReader
+from tactile_push.control import INACTIVE, STATES, STOP_REASONS, STOPPED, WAITING
+from tactile_push.plots.report_data import ERROR, NOTE, WARNING, Episode, Run, Series
+from tactile_push.plots.report_episodes import Label, episodes, joined
+from tactile_push.report.outcome import outcome_of
+from tactile_push.report.reading import (
+    CONTACT,
+    ESTIMATE,
+    READINGS,
+    SENSING,
+    STATE,
+    TACTILE,
+    TRUE_POSE,
+    TRUTH,
+    Statuses,
+    Table,
+    namespaces,
+    read_tables,
+    topics_of,
+)
+from tactile_push.report.scene import scene_of
+from tactile_push.tactile import REFUSALS
+
+# Where a series comes from: the first topic of these that the bag has, and the name there.
+SOURCES = {
+    'theta': ((STATE, 'theta'), (CONTACT, 'yaw'), (TRUTH, 'theta')),
+    'theta_desired': ((STATE, 'theta_desired'),),
+    'phi': ((STATE, 'phi'), (TRUTH, 'phi')),
+    'v_x': ((STATE, 'v_x'),),
+    'v_x_true': ((TRUTH, 'v_x'),),
+    'd': ((SENSING, 'd'),),
+    'd_lower': ((SENSING, 'd_lower'),),
+    'd_upper': ((SENSING, 'd_upper'),),
+    'd_true': ((TRUTH, 'd'),),
+    'silence': ((STATE, 'silence'),),
+    'finger_x': ((STATE, 'finger_x'), (TRUTH, 'finger_x')),
+    'belt_travel': ((TRUTH, 'belt_travel'),),
+    'object_x': ((TRUE_POSE, 'x'),),
+    'object_y': ((TRUE_POSE, 'y'),),
+    'object_angle': ((TRUE_POSE, 'yaw'),),
+    'estimate_x': ((ESTIMATE, 'x'),),
+    'estimate_y': ((ESTIMATE, 'y'),),
+}
+# What the controller can be doing, in words.
+DOING = (*STATES, *(f'{STOPPED}: {reason}' for reason in STOP_REASONS[1:]))
+# Refusals that are no fault: a finger in the air, and what came twice, which does no harm.
+NO_FAULT = {'no contact': (NOTE, 'no contact'), 'not newer': None}
+TICK_LASTS = 1.0  # what the last tick says of the controller [s]
+STATUS_LASTS = 2.0  # what a node, which reports once a second, says of itself [s]
+PARAMETERS, VERSION = 'tactile_push.parameters', 'tactile_push.version'
+
+
+def messages_shown(bag: BagReader) -> int:
+    """Count the messages that a report needs.
+
+    Parameters
+    ----------
+    bag : BagReader
+        The bag.
+
+    Returns
+    -------
+    int
+        How many `read_run` will read.
+
+    Raises
+    ------
+    BagError
+        If the bag has nothing to show.
+    """
+    return sum(bag.counts[topic] for topic in topics_of(bag, namespaces(bag)[0]))
+
+
+def read_run(bag: BagReader, progress: Callable[[int], None] = lambda done: None) -> Run:
+    """Read what a report shows.
+
+    Parameters
+    ----------
+    bag : BagReader
+        The bag.
+    progress : callable, optional
+        Told now and then how many messages are read.
+
+    Returns
+    -------
+    Run
+        The run.
+
+    Raises
+    ------
+    BagError
+        If the bag cannot be read or has nothing to show.
+    """
+    namespace, *others = namespaces(bag)
+    tables, statuses = read_tables(bag, topics_of(bag, namespace), progress)
+    parameters = _parameters(bag)
+    plant = parameters.get(f'{namespace}/sim_plant'.removeprefix('/'))
+    duration = (bag.end_time - bag.start_time) * 1e-9
+    series = _series(tables)
+    names = ', '.join(name or '/' for name in others)
+    return Run(
+        name=bag.path.resolve().name,
+        duration=duration,
+        series=series,
+        states=DOING if 'state' in series else (),
+        episodes=joined(_episodes(tables, statuses), 0.0, duration),
+        scene=scene_of(plant, tables),
+        facts=_facts(bag, duration),
+        outcome=outcome_of(tables.get(STATE, {}), plant or {}),
+        tables=_details(bag, parameters),
+        warnings=[f'not shown: the topics in {names}'] if others else [],
+    )
+
+
+def _parameters(bag: BagReader) -> dict[str, dict[str, object]]:
+    """Give the nodes' parameters, as far as the bag has them and they make sense."""
+    try:
+        parameters = json.loads(bag.notes.get(PARAMETERS, '{}'))
+    except ValueError:
+        return {}
+    if not isinstance(parameters, dict):
+        return {}
+    return {node: values for node, values in parameters.items() if isinstance(values, dict)}
+
+
+def _series(tables: Mapping[str, Table]) -> dict[str, Series]:
+    series = {}
+    for name, sources in SOURCES.items():
+        for topic, column in sources:
+            table = tables.get(topic, {})
+            if column in table:
+                series[name] = Series(table['time'], table[column])
+                break
+    if TACTILE in tables:
+        time = tables[TACTILE]['time']
+        series['interval'] = Series(time[1:], np.diff(time))
+    if {'state', 'stop_reason'} <= tables.get(STATE, {}).keys():
+        state, reason = tables[STATE]['state'], tables[STATE]['stop_reason']
+        doing = np.where(reason > 0.0, len(STATES) + reason - 1.0, state)
+        series['state'] = Series(tables[STATE]['time'], doing)
+    return series
+
+
+def _episodes(tables: Mapping[str, Table], statuses: Statuses) -> list[Episode]:
+    ticks, readings = tables.get(STATE, {}), tables.get(READINGS, {})
+    found = []
+    if {'state', 'stop_reason'} <= ticks.keys():
+        labels = [
+            _doing(state, reason)
+            for state, reason in zip(ticks['state'], ticks['stop_reason'], strict=True)
+        ]
+        found += episodes('controller', ticks['time'], labels, TICK_LASTS)
+    for name, text in (('saturated', 'φ at its bound'), ('limited', 'v_x at its bound')):
+        if name in ticks:
+            flags: list[Label | None] = [
+                (NOTE, text) if flag > 0.0 else None for flag in ticks[name]
+            ]
+            found += episodes('bounds', ticks['time'], flags, TICK_LASTS)
+    if 'refusal' in readings:
+        refusals = [_refusal(number) for number in readings['refusal']]
+        found += episodes('readings', readings['time'], refusals, 0.0)
+    for name, said in statuses.items():
+        said.sort(key=lambda status: status[0])
+        times, levels = [time for time, _ in said], [label for _, label in said]
+        found += episodes(name, times, levels, STATUS_LASTS)
+    return found
+
+
+def _doing(state: float, reason: float) -> Label | None:
+    if 0.0 < reason < len(STOP_REASONS):
+        return ERROR, f'{STOPPED}: {STOP_REASONS[int(reason)]}'
+    if 0.0 <= state < len(STATES) and STATES[int(state)] in (INACTIVE, WAITING):
+        return NOTE, STATES[int(state)]
+    return None
+
+
+def _refusal(number: float) -> Label | None:
+    if not 0.0 < number < len(REFUSALS):
+        return None
+    reason = REFUSALS[int(number)]
+    return NO_FAULT.get(reason, (WARNING, f'refused: {reason}'))
+
+
+def _facts(bag: BagReader, duration: float) -> list[str]:
+    facts = [f'{duration:.1f} s', f'{sum(bag.counts.values()):,} messages']
+    start = datetime.fromtimestamp(bag.start_time * 1e-9, timezone.utc)
+    if start.year > 1970:  # of no simulated clock
+        facts.insert(0, f'{start:%Y-%m-%d %H:%M:%S} UTC')
+    if VERSION in bag.notes:
+        facts.append(f'tactile_push {bag.notes[VERSION]}')
+    return facts
+
+
+def _details(
+    bag: BagReader, parameters: Mapping[str, Mapping[str, object]]
+) -> dict[str, list[tuple[str, ...]]]:
+    details: dict[str, list[tuple[str, ...]]] = {
+        'Topics': [
+            (name, topic.type_name, f'{bag.counts.get(name, 0):,}')
+            for name, topic in sorted(bag.topics.items())
+        ]
+    }
+    for node, values in sorted(parameters.items()):
+        details[f'Parameters of {node}'] = [
+            (name, str(value)) for name, value in sorted(values.items())
+        ]
+    return details

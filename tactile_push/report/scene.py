@@ -1,0 +1,97 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""What the view from above shows beside the run: the finger and the object."""
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from tactile_push.configuration import values_of
+from tactile_push.configuration.sim_plant import PARAMETERS, rig_config
+from tactile_push.plots.report_data import Scene
+from tactile_push.report.reading import CONTACT, TRUE_POSE, TRUTH, Table
+from tactile_push.simulation import RigConfig, paper_block, paper_disk
+
+RADIUS = 0.0135  # of the paper's finger, where the bag says nothing of it [m]
+SPACING = 0.001  # of points on round outlines [m]
+NEAR = 0.001  # how far from its contacts the outline of a paper's object may be [m]
+TRIED = 50  # contacts
+
+
+def scene_of(plant: Mapping[str, object] | None, tables: Mapping[str, Table]) -> Scene:
+    """Find out what was pushed by what.
+
+    An object of which the bag says nothing but its pose is taken for the paper's block or disk if
+    the contacts lie on its outline.
+
+    Parameters
+    ----------
+    plant : mapping of str to object or None
+        The parameters of `sim_plant`; None if the bag does not have them.
+    tables : mapping of str to dict
+        The bag's topics, as `read_tables` gives them.
+
+    Returns
+    -------
+    Scene
+        Without an object if it is not known.
+    """
+    radius = _radius(tables)
+    if plant is not None:
+        try:
+            config = rig_config(values_of(PARAMETERS, plant))
+        except ValueError:  # of another version
+            return Scene(radius)
+        return Scene(config.radius, _outline(config), config.mu_c)
+    for config in (paper_block(), paper_disk()):
+        if _fits(config, radius, tables):
+            return Scene(radius, _outline(config))
+    return Scene(radius)
+
+
+def _outline(config: RigConfig) -> list[tuple[float, float]]:
+    return [(x, y) for x, y in config.slider.outline.points(SPACING).tolist()]
+
+
+def _radius(tables: Mapping[str, Table]) -> float:
+    contact = tables.get(CONTACT)
+    found = math.nan if contact is None else np.median(np.hypot(contact['x'], contact['y']))
+    return float(found) if found > 0.0 else RADIUS
+
+
+def _fits(config: RigConfig, radius: float, tables: Mapping[str, Table]) -> bool:
+    """Tell whether the contacts lie on the outline."""
+    truth, pose = tables.get(TRUTH, {}), tables.get(TRUE_POSE, {})
+    if 'theta' not in truth or not pose:
+        return False
+    theta = np.interp(pose['time'], truth['time'], truth['theta'])
+    touching = np.flatnonzero(np.isfinite(theta))
+    some = touching[:: max(1, len(touching) // TRIED)]
+    normal = theta[some] + math.pi / 2.0
+    x = radius * np.cos(normal) - pose['x'][some]
+    y = radius * np.sin(normal) - pose['y'][some]
+    cos, sin = np.cos(pose['yaw'][some]), np.sin(pose['yaw'][some])
+    contacts = np.stack([cos * x + sin * y, cos * y - sin * x], axis=1)
+    return len(some) > 0 and bool((_distances(contacts, _outline(config)) < NEAR).all())
+
+
+def _distances(points: npt.NDArray[np.float64], outline: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Give how far points are from a closed outline of straight edges [m]."""
+    starts = np.asarray(outline)
+    edges = np.roll(starts, -1, axis=0) - starts
+    from_start = points[:, np.newaxis] - starts
+    part = np.clip((from_start * edges).sum(-1) / (edges**2).sum(-1), 0.0, 1.0)
+    return np.linalg.norm(from_start - part[..., np.newaxis] * edges, axis=-1).min(axis=1)
