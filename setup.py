@@ -18,7 +18,15 @@ from glob import glob
 from setuptools import find_packages, setup
 
 NAME = 'tactile_push'
-NODES = ('sensor_driver', 'contact_geometry', 'push_controller', 'sim_plant', 'experiment')
+NODES = (
+    'sensor_driver',
+    'contact_geometry',
+    'push_controller',
+    'sim_plant',
+    'experiment',
+    'bag_recorder',
+    'bag_player',
+)
 
 setup(
     name=NAME,
@@ -28,6 +36,7 @@ setup(
     license='Apache-2.0',
     python_requires='>=3.10',
     packages=find_packages(include=[NAME, f'{NAME}.*']),
+    package_data={f'{NAME}.plots': ['report*.css', 'report*.html', 'report*.js']},
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
         (f'share/{NAME}', ['package.xml']),
@@ -35,16 +44,19 @@ setup(
         (f'share/{NAME}/launch', glob('launch/*')),
     ],
     install_requires=[
+        'lz4>=4.3,<5',
         'matplotlib>=3.8,<4',
         'mcap>=1.5,<2',
         'mcap-ros2-support>=0.5.5,<1',
         'numba>=0.59,<1',
         'numpy>=1.26,<3',
+        'plotly>=6.3,<8',
         'pyserial>=3.5,<4',
         'pyyaml>=6,<7',
         'rich>=13,<16',
         'ros-jazzy-common-interfaces>=5.3,<6',
         'ros-jazzy-rclpy[fastrtps]>=7.1,<8',
+        'zstandard>=0.22,<1',
     ],
     extras_require={
         'test': [
@@ -53,6 +65,7 @@ setup(
             'colcon-ros>=0.5,<1',
             'hypothesis>=6,<7',
             'mypy>=1.13,<3',
+            'playwright>=1.45,<2',
             'pytest>=8,<10',
             'pytest-benchmark>=5,<6',
             'rosbags>=0.10,<1',

@@ -21,6 +21,8 @@ import pytest
 import yaml
 
 import tactile_push.mechanics
+from tactile_push.nodes.bag_player import BagPlayer
+from tactile_push.nodes.bag_recorder import BagRecorder
 from tactile_push.nodes.contact_geometry import ContactGeometry
 from tactile_push.nodes.experiment import Experiment
 from tactile_push.nodes.push_controller import PushController
@@ -36,7 +38,16 @@ WIRE_FORMAT = (ROOT / 'docs' / 'wire_format.md').read_text()
 
 
 @pytest.mark.parametrize(
-    'node', [SensorDriver, ContactGeometry, PushController, SimPlant, Experiment]
+    'node',
+    [
+        SensorDriver,
+        ContactGeometry,
+        PushController,
+        SimPlant,
+        Experiment,
+        BagRecorder,
+        BagPlayer,
+    ],
 )
 def test_readme_has_every_parameter_with_its_default_and_unit(node):
     table = README.split(f'**{node.NAME}**')[1].split('\n\n')[1]

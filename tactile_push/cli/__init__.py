@@ -20,7 +20,17 @@ from collections.abc import Sequence
 from types import FrameType
 from typing import NoReturn
 
-from tactile_push.cli import demo, figures, simulate
+from tactile_push.cli import (
+    demo,
+    diff,
+    figures,
+    info,
+    play,
+    record,
+    replay,
+    report,
+    simulate,
+)
 from tactile_push.cli.arguments import Parser
 
 
@@ -42,7 +52,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         description='Turn and locate objects by pushing them with one tactile finger.',
     )
     commands = parser.add_subparsers(required=True, metavar='COMMAND')
-    for command in (demo, simulate, figures):
+    for command in (demo, simulate, figures, record, play, replay, info, diff, report):
         command.add(commands)
     options = parser.parse_args(arguments)
     for signum in (signal.SIGTERM, signal.SIGHUP):
