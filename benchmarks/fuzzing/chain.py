@@ -81,7 +81,7 @@ class Chain:
             self._tick(now)
 
     def _tick(self, now: float) -> None:
-        tick = self._control.tick(now, now)
+        tick = self._control.tick(now, CONTROL_PERIOD)
         self.ticks += 1
         v_x = 0.0 if tick.v_x is None else tick.v_x
         limits = self._control.limits

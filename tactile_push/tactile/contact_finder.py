@@ -144,9 +144,7 @@ class ContactFinder:
         Raises
         ------
         ReadingRejectedError
-            If there is none to trust. The message is the reason: 'not newer', 'no joint state',
-            'stale joint state', 'no contact', 'off the hemisphere', 'beyond the detectable range',
-            'out of plane' or 'isolated jump'.
+            If there is none to trust. The message is the reason, one of `REFUSALS`.
         """
         self.joint_angle = math.nan
         self._check_order(stamp)

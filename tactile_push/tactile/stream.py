@@ -79,6 +79,7 @@ class SentenceStream:
         list of Reading
             Oldest first.
         """
+        fresh = fresh or not data
         # A segment that begins before this place of the first line has late bytes.
         late_before = len(self._pending) if self._pending_is_late else 0
         *lines, rest = (self._pending + data).split(b'\n')

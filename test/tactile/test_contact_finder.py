@@ -43,6 +43,7 @@ REASONS = {
     'not newer',
     'no joint state',
     'stale joint state',
+    'direction of the finger unknown',
     'no contact',
     'off the hemisphere',
     'beyond the detectable range',

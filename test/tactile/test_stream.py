@@ -185,6 +185,7 @@ def test_any_bytes_in_any_pieces_give_what_the_format_says(text, cuts):
 @example(degrees=[10], garbage=b'', cuts=[5], freshness=[False, *[True] * 10])
 @example(degrees=[10], garbage=b'', cuts=[5, 9], freshness=[True, False, *[True] * 9])
 @example(degrees=[10, 20], garbage=b'', cuts=[30], freshness=[False, *[True] * 10])
+@example(degrees=[10], garbage=b'', cuts=[2, 2], freshness=[True, False, *[True] * 9])
 @PROPERTY
 def test_sentence_with_a_late_byte_is_late_and_no_other(degrees, garbage, cuts, freshness):
     lines = [line(number, angle) for number, angle in enumerate(degrees)]
