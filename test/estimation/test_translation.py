@@ -14,11 +14,17 @@
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tactile_push.estimation import contact_of_translation
+from tactile_push.estimation import (
+    bounds_of_translation,
+    centre_on_ray,
+    contact_of_translation,
+    translates,
+)
 
 checked = settings(derandomize=True, deadline=None, max_examples=60)
 thetas = st.floats(-1.5, 1.5)
@@ -111,3 +117,79 @@ def test_mirror_images_mirror(beta, l):
 def test_a_finger_that_does_not_move_into_the_object_pushes_from_nowhere(theta, phi):
     with pytest.raises(ValueError, match='phi - theta'):
         contact_of_translation(theta, phi, BLOCK)
+
+
+def test_the_bounds_of_the_paper_follow_from_its_range():
+    lower, upper = bounds_of_translation(
+        (0.0, 0.0), (math.radians(90.6), math.radians(95.0)), BLOCK
+    )
+
+    assert lower == pytest.approx(0.00025, abs=1e-5)  # 0.03 cm, from angles rounded to tenths
+    assert round(100.0 * upper, 2) == 0.21
+
+
+@checked
+@given(thetas, st.floats(0.0, 0.3), st.floats(0.35, 2.4), st.floats(0.0, 0.3), distances)
+def test_bounds_hold_for_all_angles_in_the_ranges(theta, width, beta, spread, l):
+    phi = theta + beta
+    lower, upper = bounds_of_translation((theta, theta + width), (phi, phi + spread), l)
+
+    for a in (0.0, 0.4, 1.0):
+        for b in (0.0, 0.7, 1.0):
+            d = contact_of_translation(theta + a * width, phi + b * spread, l)
+            assert lower - 1e-12 <= d <= upper + 1e-12
+
+
+@pytest.mark.parametrize(('theta', 'phi'), [((0.1, 0.0), (1.0, 2.0)), ((0.0, 0.1), (0.05, 2.0))])
+def test_ranges_without_bounds_are_refused(theta, phi):
+    with pytest.raises(ValueError, match='theta'):
+        bounds_of_translation(theta, phi, BLOCK)
+
+
+def test_translation_is_claimed_wrongly_no_more_often_than_stated():
+    rng = np.random.default_rng(0)
+    way, noise, turn, count = 0.05, 0.005, 0.5, 4000
+    line = np.linspace(0.0, way, 101)
+
+    wrong = sum(
+        translates(0.2 + turn * line + noise * rng.standard_normal(101), way, noise, 0.1, turn)
+        for _ in range(count)
+    )
+    right = sum(
+        translates(0.2 + noise * rng.standard_normal(101), way, noise, 0.1, turn)
+        for _ in range(200)
+    )
+
+    assert wrong / count == pytest.approx(0.05, abs=0.012)  # one side of 10 %
+    assert right == 200
+
+
+def test_few_noisy_readings_show_no_translation():
+    assert not translates([0.0, 0.0, 0.0], 0.001, 0.01, 0.05, 1.0)
+
+
+@pytest.mark.parametrize(
+    'changes',
+    [
+        {'theta': [0.0, 0.1]},
+        {'theta': [0.0, math.nan, 0.1]},
+        {'way': 0.0},
+        {'noise': 0.0},
+        {'error': 1.0},
+        {'turn': -1.0},
+    ],
+)
+def test_what_cannot_tell_translation_is_refused(changes):
+    numbers = {'theta': [0.0] * 5, 'way': 0.01, 'noise': 0.01, 'error': 0.05, 'turn': 1.0}
+    with pytest.raises(ValueError, match='expected'):
+        translates(**{**numbers, **changes})
+
+
+@checked
+@given(thetas, betas, distances)
+def test_the_centre_lies_on_the_ray_that_leaves_the_contact(theta, beta, l):
+    r = 0.0135
+    x, y = centre_on_ray(theta, contact_of_translation(theta, theta + beta, l), l, r)
+
+    x, y = x + r * math.sin(theta), y - r * math.cos(theta)  # from the contact, at r n
+    assert math.remainder(math.atan2(y, x) - theta - beta, math.tau) == pytest.approx(0, abs=1e-12)

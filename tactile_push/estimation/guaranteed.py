@@ -1,0 +1,170 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Bounds that hold whenever sensor and object keep to theirs."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from tactile_push.estimation.cells import (
+    ALPHA_HIGH,
+    ALPHA_LOW,
+    C_SQUARED_HIGH,
+    C_SQUARED_LOW,
+    FACES,
+    ROLLED_HIGH,
+    ROLLED_LOW,
+    THETA_HIGH,
+    THETA_LOW,
+    cut_cells,
+    push_cells,
+    split_cells,
+)
+from tactile_push.estimation.prior import Prior, friction
+from tactile_push.mechanics.compiled import Array
+
+WAY = 5e-4  # a longer push is taken in parts [m]
+CELLS = 256
+
+
+@dataclass(frozen=True)
+class ModelBounds:
+    """How far sensor and object may be from the model, for what is guaranteed.
+
+    Parameters
+    ----------
+    noise : float
+        Largest error of a reading [rad].
+    turn : float, optional
+        How far omega may be from the ellipsoid's, as a share of it.
+    cone : float, optional
+        How far an edge of the motion cone may be from the ellipsoid's [rad].
+
+    Raises
+    ------
+    ValueError
+        If a bound is negative or not finite, or `turn` is not below 1.
+    """
+
+    noise: float
+    turn: float = 0.3
+    cone: float = math.radians(15.0)
+
+    def __post_init__(self) -> None:
+        for name in ('noise', 'turn', 'cone'):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0.0):
+                raise ValueError(f'{name}: expected a finite number of 0 or more, got {value}')
+        if not self.turn < 1.0:
+            raise ValueError(f'turn: expected a share below 1, got {self.turn}')
+
+
+class GuaranteedSet:
+    """All that cannot be excluded of one object, as cells.
+
+    Parameters
+    ----------
+    prior : Prior
+        What is known before any data.
+    bounds : ModelBounds
+        How far sensor and object may be from the model.
+    radius : float
+        Effective radius of the finger's disk [m].
+    theta : float
+        The first reading [rad].
+    """
+
+    def __init__(self, prior: Prior, bounds: ModelBounds, radius: float, theta: float) -> None:
+        self._prior = prior
+        self._bounds = bounds
+        self._radius = radius
+        self._cells = np.zeros((CELLS, FACES))
+        low, high = theta - bounds.noise, theta + bounds.noise
+        self._cells[0] = (
+            *(low, high, prior.d[0] + radius * low, prior.d[1] + radius * high),
+            *(prior.c[0] ** 2, prior.c[1] ** 2, *map(math.atan, prior.mu_c)),
+        )
+        self._count = 1
+        self._split()
+
+    @property
+    def empty(self) -> bool:
+        """Whether everything is excluded: a bound does not hold."""
+        return self._count == 0
+
+    def ranges(self) -> Array:
+        """Give the bounds.
+
+        Returns
+        -------
+        ndarray, shape (3, 2)
+            Least and most d [m], c [m] and mu_c; those of the prior if everything is excluded.
+        """
+        prior = self._prior
+        if self.empty:
+            return np.array([prior.d, prior.c, prior.mu_c])
+        cells = self._cells[: self._count]
+        low = (cells[:, ROLLED_LOW] - self._radius * cells[:, THETA_HIGH]).min()
+        high = (cells[:, ROLLED_HIGH] - self._radius * cells[:, THETA_LOW]).max()
+        return np.array(
+            [
+                [max(low, prior.d[0]), min(high, prior.d[1])],
+                np.sqrt([cells[:, C_SQUARED_LOW].min(), cells[:, C_SQUARED_HIGH].max()]),
+                [friction(cells[:, ALPHA_LOW].min()), friction(cells[:, ALPHA_HIGH].max())],
+            ]
+        )
+
+    def push(self, v_x: float, v_y: float, duration: float) -> None:
+        """Take a push.
+
+        Parameters
+        ----------
+        v_x, v_y : float
+            Velocity of the finger relative to the support [m/s].
+        duration : float
+            How long [s].
+        """
+        prior, bounds = self._prior, self._bounds
+        parts = max(1, math.ceil(math.hypot(v_x, v_y) * duration / WAY))
+        for _ in range(parts):
+            self._count = push_cells(
+                self._cells[: self._count],
+                v_x,
+                v_y,
+                duration / parts,
+                *prior.d,
+                prior.l - 3.0 * prior.l_sigma,
+                prior.l + 3.0 * prior.l_sigma,
+                self._radius,
+                bounds.turn,
+                bounds.cone,
+            )
+
+    def read(self, theta: float) -> None:
+        """Take a reading.
+
+        Parameters
+        ----------
+        theta : float
+            The reading [rad].
+        """
+        noise = self._bounds.noise
+        self._count = cut_cells(self._cells[: self._count], theta - noise, theta + noise)
+        self._split()
+
+    def _split(self) -> None:
+        """Halve the cells while there is room."""
+        while 0 < 2 * self._count <= CELLS:
+            self._count = split_cells(self._cells, self._count, self._prior.l, self._radius)

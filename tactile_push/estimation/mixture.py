@@ -1,0 +1,73 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Quantiles of a weighted sum of Gaussians."""
+
+import math
+
+from tactile_push.mechanics.compiled import Array, compiled
+
+REACH = 4.5  # standard deviations beyond which a Gaussian is taken to have nothing
+NEGLIGIBLE = 1e-6  # weight
+EXACT = 1e-4  # error of the share
+FINE = 1e-6  # last bracket, of the first one: where the mixture has a step
+
+
+@compiled
+def quantile(weights: Array, means: Array, variances: Array, share: float) -> float:
+    """Find the value below which a share of a mixture of Gaussians lies.
+
+    Parameters
+    ----------
+    weights : ndarray, shape (H,)
+        Weights, whose sum is positive.
+    means, variances : ndarray, shape (H,)
+        The Gaussians, whose variances may be 0.
+    share : float
+        The share, between 0 and 1.
+
+    Returns
+    -------
+    float
+        The value, in the unit of the means.
+    """
+    total = 0.0
+    for h in range(len(weights)):
+        total += weights[h]
+    low, high = math.inf, -math.inf
+    for h in range(len(weights)):
+        if weights[h] > NEGLIGIBLE * total:
+            reach = REACH * math.sqrt(variances[h])
+            low, high = min(low, means[h] - reach), max(high, means[h] + reach)
+    under, over, narrow, turns = -share, 1.0 - share, FINE * (high - low), 0
+    while high - low > narrow:
+        turns += 1
+        middle = (low + high) / 2.0
+        if turns % 3 != 0:  # the chord's root, which halves the bracket only sometimes
+            middle = (low * over - high * under) / (over - under)
+        below = 0.0
+        for h in range(len(weights)):
+            if weights[h] > NEGLIGIBLE * total:
+                distance, deviation = middle - means[h], math.sqrt(variances[h])
+                if distance > REACH * deviation:
+                    below += weights[h]
+                elif distance > -REACH * deviation:
+                    below += weights[h] * math.erfc(-distance / (math.sqrt(2.0) * deviation)) / 2.0
+        excess = below / total - share
+        if abs(excess) < EXACT:
+            return middle
+        if excess < 0.0:
+            low, under = middle, excess
+        else:
+            high, over = middle, excess
+    return (low + high) / 2.0

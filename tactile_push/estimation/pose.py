@@ -1,0 +1,48 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Where the object is, as seen from the finger (Section III, use 2)."""
+
+import math
+
+import numpy as np
+
+from tactile_push.estimation.contact_estimator import Estimate
+from tactile_push.estimation.translation import centre_on_ray
+from tactile_push.mechanics.compiled import Array
+
+
+def object_pose(estimate: Estimate, r: float) -> tuple[Array, Array]:
+    """Give the pose of the centre of mass in the frame of the finger's disk.
+
+    The sensed theta and the estimated d determine it completely; to first order in their errors.
+
+    Parameters
+    ----------
+    estimate : Estimate
+        What is known of theta, d and l, theta past the first reading.
+    r : float
+        Radius of the finger's disk [m].
+
+    Returns
+    -------
+    pose : ndarray, shape (3,)
+        x, y [m] and the angle of the pushed edge [rad].
+    covariance : ndarray, shape (3, 3)
+        Their covariance.
+    """
+    theta, d = estimate.theta, estimate.d.mean
+    x, y = centre_on_ray(theta, d, estimate.l, r)
+    cos, sin = math.cos(theta), math.sin(theta)
+    by_theta_d_l = np.array([[-y, -cos, -sin], [x, -sin, cos], [1.0, 0.0, 0.0]])
+    return np.array([x, y, theta]), by_theta_d_l @ estimate.covariance @ by_theta_d_l.T

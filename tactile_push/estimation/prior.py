@@ -1,0 +1,137 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""What is known of an object before it is pushed, and the hypotheses that stand for it."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from tactile_push.estimation.hypotheses import ALPHA, C_SQUARED, UNKNOWNS, D, L
+from tactile_push.mechanics import check_friction
+from tactile_push.mechanics.compiled import Array
+
+D_SPACING = 3e-3  # of the hypotheses [m]
+D_COUNTS = (4, 40)  # the fewest and the most along an edge
+C_COUNT, ALPHA_COUNT = 5, 5  # how many share c and a finite friction
+NONE, SOME, STICKS = range(3)  # kinds of friction: mu_c = 0, between, infinite
+SHARES = (0.25, 0.5, 0.25)  # of the kinds, before any data
+
+
+@dataclass(frozen=True)
+class Prior:
+    """What is known of an object before it is pushed.
+
+    Parameters
+    ----------
+    d : tuple of float
+        Ends of the pushed edge, least and most d [m].
+    l : float
+        Distance from the edge to the centre of mass [m].
+    l_sigma : float, optional
+        Standard deviation of `l` [m]; 0 if it is known. What is guaranteed holds within three.
+    c : tuple of float, optional
+        Least and most c [m].
+    mu_c : tuple of float, optional
+        Least and most friction between finger and object, 0 to infinity.
+    density : callable, optional
+        Probability density over (d, c, mu_c), up to a factor; by default even over d, c and the
+        angle of friction, with 0 and infinity as likely as half of what is between, each.
+
+    Raises
+    ------
+    ValueError
+        If a number is out of its range.
+    """
+
+    d: tuple[float, float]
+    l: float
+    l_sigma: float = 0.0
+    c: tuple[float, float] = (0.005, 0.036)
+    mu_c: tuple[float, float] = (0.0, math.inf)
+    density: Callable[[float, float, float], float] | None = None
+
+    def __post_init__(self) -> None:
+        for name in ('d', 'c'):
+            low, high = getattr(self, name)
+            if not (math.isfinite(low) and math.isfinite(high) and low < high):
+                raise ValueError(f'{name}: expected two lengths that grow [m], got {low}, {high}')
+        if not self.c[0] > 0.0:
+            raise ValueError(f'c: expected positive lengths [m], got {self.c}')
+        if not (math.isfinite(self.l) and self.l > 0.0):
+            raise ValueError(f'l: expected a positive length [m], got {self.l}')
+        if not 0.0 <= 3.0 * self.l_sigma < self.l:
+            raise ValueError(f'l_sigma: expected 0 to a third of l [m], got {self.l_sigma}')
+        for mu_c in self.mu_c:
+            check_friction(mu_c)
+        if not self.mu_c[0] <= self.mu_c[1]:
+            raise ValueError(f'mu_c: expected the least friction first, got {self.mu_c}')
+
+
+def friction(alpha: float) -> float:
+    """Give the coefficient for an angle of friction."""
+    return math.inf if alpha >= math.pi / 2.0 else max(0.0, math.tan(alpha))
+
+
+def spread(prior: Prior) -> tuple[Array, Array, Array, Array]:
+    """Spread hypotheses over a prior: means, covariances, kinds of friction and weights."""
+    few, many = D_COUNTS
+    count = min(max(math.ceil((prior.d[1] - prior.d[0]) / D_SPACING), few), many)
+    d_edges = np.linspace(*prior.d, count + 1)
+    c_edges = np.linspace(*prior.c, C_COUNT + 1)
+    least, most = map(math.atan, prior.mu_c)
+    frictions = []  # angle, variance, kind, weight
+    if prior.mu_c[0] == 0.0:
+        frictions.append((0.0, 0.0, NONE, SHARES[NONE]))
+    if least < most:
+        edges = np.linspace(least, most, ALPHA_COUNT + 1)
+        variance = (edges[1] - edges[0]) ** 2 / 12.0
+        share = SHARES[SOME] / ALPHA_COUNT
+        frictions += [
+            (angle, variance, SOME, share) for angle in ((edges[1:] + edges[:-1]) / 2.0).tolist()
+        ]
+    elif 0.0 < prior.mu_c[0] < math.inf:
+        frictions.append((least, 0.0, SOME, SHARES[SOME]))
+    if math.isinf(prior.mu_c[1]):
+        frictions.append((math.pi / 2.0, 0.0, STICKS, SHARES[STICKS]))
+    means, covariances, kinds, weights = [], [], [], []
+    for d_low, d_high in pairwise(d_edges):
+        for c_low, c_high in pairwise(c_edges):
+            for angle, variance, kind, weight in frictions:
+                mean = np.zeros(UNKNOWNS)
+                mean[D], mean[C_SQUARED] = (d_low + d_high) / 2.0, (c_low**2 + c_high**2) / 2.0
+                mean[ALPHA], mean[L] = angle, prior.l
+                if prior.density is not None:
+                    middle = math.sqrt(mean[C_SQUARED])
+                    weight = weight * prior.density(mean[D], middle, friction(angle))
+                means.append(mean)
+                variances = np.zeros(UNKNOWNS)
+                variances[D] = (d_high - d_low) ** 2 / 12.0
+                variances[C_SQUARED] = (c_high**2 - c_low**2) ** 2 / 12.0
+                variances[ALPHA], variances[L] = variance, prior.l_sigma**2
+                covariances.append(np.diag(variances))
+                kinds.append(kind)
+                weights.append(weight)
+    total = np.array(weights)
+    if not (np.isfinite(total).all() and (total >= 0.0).all() and total.any()):
+        raise ValueError('density: expected numbers of 0 or more, not all 0')
+    positive = total > 0.0
+    return (
+        np.array(means)[positive],
+        np.array(covariances)[positive],
+        np.array(kinds)[positive],
+        total[positive] / total.sum(),
+    )

@@ -1,0 +1,224 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+import math
+
+import numpy as np
+import pytest
+
+from tactile_push.control import PushLaw, finger_velocity
+from tactile_push.estimation import ContactEstimator, Prior
+from tactile_push.mechanics import Outline, Slider, Support
+from tactile_push.simulation import Faults, Rig, Servo, paper_block
+from tactile_push.simulation.rig import RigConfig
+
+NOISE = math.radians(0.2)
+BLOCK = Prior((-0.025, 0.025), 0.02375)
+STICKS = Prior((-0.025, 0.025), 0.02375, mu_c=(math.inf, math.inf))
+BELT = 0.005
+
+
+def run(config, steps, seed, noise=NOISE, servo=None):
+    """Let the paper's law push: readings and commanded and measured velocities, and every d."""
+    rng = np.random.default_rng(seed)
+    rig = Rig(config, Faults(servo=servo or Servo()))
+    law = PushLaw(0.05, 5.0, math.radians(-10.0))
+    rows, truth, command, x = [], [], 0.0, 0.0
+    for _ in range(steps + 1):
+        theta = rig.theta + noise * rng.standard_normal()
+        rows.append((theta, command, (rig.finger_x - x) / 0.1))
+        truth.append(rig.d)
+        x = rig.finger_x
+        command = finger_velocity(law.update(theta), BELT)
+        rig.step(command, 0.1)
+    return rows, truth
+
+
+def follow(estimator, rows, column=2):
+    """Give the estimates, the first of a reading without a push."""
+    return [
+        estimator.push(row[0], row[column], BELT, 0.1 if k else 0.0) for k, row in enumerate(rows)
+    ]
+
+
+def random_block(seed, mu_c):
+    rng = np.random.default_rng(1000 + seed)
+    theta, d, c = rng.uniform(-0.4, 0.4), rng.uniform(-0.02, 0.02), rng.uniform(0.005, 0.036)
+    return paper_block(theta, d, c, mu_c)
+
+
+def test_before_any_data_it_knows_what_was_known_before():
+    estimator = ContactEstimator(BLOCK, NOISE)
+
+    for estimate in (estimator.estimate(), estimator.push(math.nan, 0.001, BELT, 0.1)):
+        assert (estimate.d.lower, estimate.d.upper) == BLOCK.d
+        assert (estimate.d.least, estimate.d.most) == BLOCK.d
+        assert (estimate.c.lower, estimate.c.upper) == BLOCK.c
+        assert (estimate.mu_c.lower, estimate.mu_c.upper) == (0.0, math.inf)
+        assert math.isnan(estimate.theta)
+        assert estimate.contradiction == ''
+
+
+@pytest.mark.parametrize('mu_c', [0.0, 0.2, math.inf])
+def test_intervals_have_the_truth_as_often_as_they_say(mu_c):
+    # 24 runs and two steps each: fewer than 42 of 48 have a probability below 1 % at 95 %.
+    inside = 0
+    for seed in range(24):
+        config = random_block(seed, mu_c)
+        rows, truth = run(config, 60, seed)
+        estimates = follow(ContactEstimator(BLOCK, NOISE), rows)
+        for k in (20, 60):
+            d = estimates[k].d
+            inside += d.lower <= truth[k] <= d.upper
+            assert d.least <= truth[k] <= d.most
+            assert estimates[k].contradiction == ''
+    assert inside >= 42
+
+
+@pytest.mark.parametrize('support', ['corners', 'rim', 'uniform'])
+def test_it_survives_a_limit_surface_that_is_not_its_own(support):
+    outline = Outline.rectangle(0.05, 0.0475)
+    count = () if support == 'corners' else (60,)
+    slider = Slider.on(outline, getattr(Support, support)(outline, *count), exact=True)
+    inside = 0
+    for seed in range(8):
+        start = random_block(seed, math.inf)
+        rows, truth = run(RigConfig(slider, math.inf, start.theta, start.d), 173, seed)
+        estimates = follow(ContactEstimator(BLOCK, NOISE), rows)
+        inside += sum(
+            estimates[k].d.lower <= truth[k] <= estimates[k].d.upper for k in (20, 60, 173)
+        )
+        assert all(
+            estimate.d.least <= d <= estimate.d.most
+            for estimate, d in zip(estimates, truth, strict=True)
+        )
+    assert inside >= 20  # of 24: fewer have a probability below 1 % at 95 %
+
+
+def test_d_is_known_long_before_the_block_translates():
+    # Figure 8: the paper reads off d after 400 steps, 1.8 mm wide.
+    rows, truth = run(paper_block(), 173, 0)
+    estimates = follow(ContactEstimator(STICKS, NOISE), rows)
+
+    widths = [1e3 * (estimate.d.upper - estimate.d.lower) for estimate in estimates]
+    assert widths[100] < 1.8
+    assert widths[173] < 1.0
+    assert estimates[173].d.lower <= truth[173] <= estimates[173].d.upper
+
+
+def test_mirror_images_mirror():
+    rows, _ = run(paper_block(mu_c=0.3), 30, 3)
+    estimates = follow(ContactEstimator(BLOCK, NOISE), rows)
+    mirrored = follow(ContactEstimator(BLOCK, NOISE), [(-a, -b, -c) for a, b, c in rows])
+
+    for one, other in zip(estimates, mirrored, strict=True):
+        assert other.d.mean == pytest.approx(-one.d.mean, abs=1e-7)
+        assert other.d.lower == pytest.approx(-one.d.upper, abs=2e-5)
+        assert other.c.mean == pytest.approx(one.c.mean, abs=1e-7)
+
+
+def test_a_lag_is_followed_from_commands_alone():
+    servo = Servo(time_constant=0.15)
+    rows, _ = run(paper_block(), 60, 1, servo=servo)
+    measured = follow(ContactEstimator(STICKS, NOISE), rows)[-1].d
+    commanded = follow(ContactEstimator(STICKS, NOISE, lag=0.15), rows, 1)[-1].d
+
+    assert commanded.mean == pytest.approx(measured.mean, abs=2e-6)
+    assert commanded.lower == pytest.approx(measured.lower, abs=2e-6)
+
+
+def test_the_same_pushes_give_the_same_estimates_also_after_a_reset():
+    rows, _ = run(paper_block(), 20, 2)
+    estimator = ContactEstimator(BLOCK, NOISE)
+    first = follow(estimator, rows)
+    estimator.reset()
+
+    again = follow(estimator, rows)
+
+    assert [estimate.d for estimate in again] == [estimate.d for estimate in first]
+
+
+def test_outliers_are_put_aside():
+    rows, truth = run(paper_block(), 80, 4)
+    rows[30] = (1.2, *rows[30][1:])
+    rows[50] = (math.nan, *rows[50][1:])
+    estimates = follow(ContactEstimator(BLOCK, NOISE, outlier=0.01), rows)
+
+    assert estimates[30].d.upper - estimates[30].d.lower > 0.0
+    assert abs(estimates[30].theta - rows[29][0]) < 0.05
+    assert estimates[80].d.lower <= truth[80] <= estimates[80].d.upper
+    assert estimates[80].contradiction == ''
+
+
+def test_an_object_that_is_no_longer_pushed_contradicts_the_model():
+    # It stays at an angle at which it would have to turn.
+    rows, _ = run(paper_block(), 20, 5)
+    estimator = ContactEstimator(BLOCK, NOISE)
+    follow(estimator, rows)
+    rng = np.random.default_rng(5)
+    for _ in range(80):
+        estimate = estimator.push(rows[-1][0] + NOISE * rng.standard_normal(), -0.004, BELT, 0.1)
+    assert estimate.contradiction
+    assert (estimate.d.lower, estimate.d.upper) == BLOCK.d
+
+
+def test_readings_anywhere_contradict_the_model():
+    rng = np.random.default_rng(6)
+    estimator = ContactEstimator(BLOCK, NOISE)
+    for _ in range(60):
+        estimate = estimator.push(rng.uniform(-1.5, 1.5), 0.0, BELT, 0.1)
+    assert 'jump' in estimate.contradiction
+
+
+def test_a_prior_that_leaves_out_the_truth_is_less_likely():
+    rows, _ = run(paper_block(), 60, 7)
+    evidence = []
+    for l in (0.02375, 0.06):
+        estimator = ContactEstimator(Prior((-0.025, 0.025), l), NOISE)
+        follow(estimator, rows)
+        evidence.append(estimator.log_evidence)
+    assert evidence[0] > evidence[1]
+
+
+def test_a_density_over_the_prior_is_followed():
+    prior = Prior(BLOCK.d, BLOCK.l, density=lambda d, c, mu_c: float(d > 0.0))
+    estimate = ContactEstimator(prior, NOISE).push(0.1, 0.0, BELT, 0.0)
+
+    assert estimate.d.lower >= -0.001
+    assert estimate.d.upper == pytest.approx(0.025, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    'arguments',
+    [(0.1, math.nan, BELT, 0.1), (0.1, 0.0, math.inf, 0.1), (0.1, 0.0, BELT, -0.1)],
+)
+def test_motions_that_are_none_are_refused(arguments):
+    with pytest.raises(ValueError, match='expected'):
+        ContactEstimator(BLOCK, NOISE).push(*arguments)
+
+
+@pytest.mark.parametrize(
+    'changes',
+    [
+        {'d': (0.01, 0.01)},
+        {'l': 0.0},
+        {'l_sigma': 0.01},
+        {'c': (0.0, 0.01)},
+        {'mu_c': (0.5, 0.1)},
+        {'mu_c': (-0.1, 1.0)},
+    ],
+)
+def test_priors_that_are_none_are_refused(changes):
+    with pytest.raises(ValueError, match='expected'):
+        Prior(**{'d': (-0.025, 0.025), 'l': 0.02375, **changes})

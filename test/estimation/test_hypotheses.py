@@ -1,0 +1,165 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+import math
+
+import numpy as np
+import pytest
+
+from tactile_push.estimation.hypotheses import (
+    ALPHA,
+    C_SQUARED,
+    THETA,
+    UNKNOWNS,
+    D,
+    L,
+    advance,
+    correct,
+    predict,
+)
+from tactile_push.estimation.mixture import quantile
+from tactile_push.mechanics import Outline, friction_cone, push, tangent_angle
+
+RADIUS = 0.0135
+BLOCK = Outline.rectangle(0.05, 0.0475)
+PATH = BLOCK.path(RADIUS)
+HALF = 0.02375
+
+
+def exactly(theta, d, c, mu_c, v_x, v_y, duration):
+    """Push the block by the mechanics, which integrate every push to convergence."""
+    sigma = BLOCK.sigma(RADIUS, d=d)
+    turn = tangent_angle(sigma, PATH)
+    angle, after, _, _ = push(
+        *(theta - turn, sigma, v_x, v_y, duration, PATH, c, None, *friction_cone(mu_c), RADIUS)
+    )
+    return angle + turn, d + after - sigma
+
+
+@pytest.mark.parametrize('mu_c', [0.0, 0.2, 1.0, math.inf])
+def test_a_push_is_that_of_the_mechanics(mu_c):
+    rng = np.random.default_rng(1)
+    for _ in range(40):
+        theta, d = rng.uniform(-0.4, 0.4), rng.uniform(-0.02, 0.02)
+        c, v_x = rng.uniform(0.005, 0.036), rng.uniform(-0.004, 0.004)
+        found = advance(theta, d, c * c, math.atan(mu_c), HALF, v_x, 0.005, 0.1, RADIUS)
+
+        expected = exactly(theta, d, c, mu_c, v_x, 0.005, 0.1)
+        assert found[0] == pytest.approx(expected[0], rel=0, abs=5e-5)
+        assert found[1] == pytest.approx(expected[1], rel=0, abs=2e-6)
+
+
+def one(mean, deviations):
+    return np.array([mean]), np.diag(np.square(deviations))[np.newaxis].copy()
+
+
+def test_mean_and_covariance_are_those_of_many_pushed_objects():
+    rng = np.random.default_rng(2)
+    middle = (0.1, 0.006, 0.0187**2, math.atan(0.3), HALF)
+    deviations = (0.01, 0.0005, 2e-5, 0.05, 0.0003)
+    means, covariances = one(middle, deviations)
+
+    predict(means, covariances, 0.001, 0.005, 0.1, RADIUS, 1e-5, 1e-2, 0.0, 0.0, 0.0)
+
+    samples = rng.normal(middle, deviations, (4000, UNKNOWNS))
+    for row in samples:
+        c, mu_c = math.sqrt(row[C_SQUARED]), math.tan(row[ALPHA])
+        row[[THETA, D]] = advance(*row, 0.001, 0.005, 0.1, RADIUS)
+        assert c > 0.0
+        assert mu_c > 0.0
+    scale = samples.std(axis=0)
+    assert (means[0] - samples.mean(axis=0)) / scale == pytest.approx(0.0, rel=0, abs=0.06)
+    difference = (covariances[0] - np.cov(samples.T)) / np.outer(scale, scale)
+    assert difference == pytest.approx(0.0, rel=0, abs=0.08)
+
+
+def test_what_is_known_for_certain_stays_certain():
+    means, covariances = one((0.2, -0.006, 0.0187**2, math.pi / 2.0, HALF), (0.0,) * UNKNOWNS)
+
+    predict(means, covariances, 0.0, 0.005, 0.1, RADIUS, 1e-5, 1e-2, 0.0, 0.0, 0.0)
+
+    assert covariances == pytest.approx(0.0, rel=0, abs=1e-20)
+    assert means[0, :2] == pytest.approx(
+        exactly(0.2, -0.006, 0.0187, math.inf, 0.0, 0.005, 0.1), abs=2e-5
+    )
+
+
+def test_scatter_and_drift_add_what_they_say():
+    certain = (0.2, -0.006, 0.0187**2, math.pi / 2.0, HALF)
+    means, covariances = one(certain, (0.0,) * UNKNOWNS)
+
+    predict(means, covariances, 0.0, 0.005, 0.1, RADIUS, 1e-5, 1e-2, 0.5, 0.0, 0.01)
+
+    turn = means[0, THETA] - 0.2
+    variance = covariances[0]
+    assert math.sqrt(variance[THETA, THETA]) == pytest.approx(abs(turn) / 2.0)
+    assert math.sqrt(variance[D, D]) == pytest.approx(RADIUS * abs(turn) / 2.0)
+    assert variance[THETA, D] == pytest.approx(-RADIUS * turn**2 / 4.0)
+    assert math.sqrt(variance[C_SQUARED, C_SQUARED]) == pytest.approx(0.01 * (0.0187**2 + HALF**2))
+
+
+def test_slip_scatters_by_its_share():
+    means, covariances = one((0.2, -0.006, 0.0187**2, 0.0, HALF), (0.0,) * UNKNOWNS)
+
+    predict(means, covariances, 0.0, 0.005, 0.1, RADIUS, 1e-5, 1e-2, 0.0, 0.5, 0.0)
+
+    slip = means[0, D] + 0.006 + RADIUS * (means[0, THETA] - 0.2)
+    assert abs(slip) > 1e-5
+    assert math.sqrt(covariances[0, D, D]) == pytest.approx(abs(slip) / 2.0)
+    assert covariances[0, THETA, THETA] == pytest.approx(0.0, abs=1e-20)
+
+
+def test_a_reading_is_weighed_as_bayes_does():
+    # Two hypotheses with the standard deviation 0.02 of theta and a reading with 0.01.
+    means = np.zeros((2, UNKNOWNS))
+    means[:, THETA] = 0.0, 0.05
+    covariances = np.zeros((2, UNKNOWNS, UNKNOWNS))
+    covariances[:, THETA, THETA] = 0.0004
+    covariances[:, L, L] = 1e-6
+    covariances[:, THETA, L] = covariances[:, L, THETA] = 1e-5
+    weights = np.log([0.5, 0.5])
+
+    density = correct(means, covariances, weights, 0.01, 0.0001, 1e-9)
+
+    normal = [
+        math.exp(-(error**2) / 0.001) / math.sqrt(math.tau * 0.0005) for error in (0.01, -0.04)
+    ]
+    assert density == pytest.approx(sum(normal) / 2.0, rel=1e-6)
+    assert np.exp(weights) == pytest.approx(np.array(normal) / sum(normal), rel=1e-6)
+    assert means[:, THETA] == pytest.approx([0.008, 0.018])  # four fifths of the way
+    assert means[:, L] == pytest.approx([1e-5 / 0.0005 * 0.01, -1e-5 / 0.0005 * 0.04])
+    assert covariances[0, THETA, THETA] == pytest.approx(0.00008)
+    assert covariances[0, L, L] == pytest.approx(1e-6 - 1e-10 / 0.0005)
+
+
+def test_an_outlier_moves_nothing():
+    means, covariances = one((0.1, 0.0, 4e-4, 1.0, HALF), (0.003, 0.001, 1e-5, 0.1, 0.0))
+    before = means.copy(), covariances.copy()
+
+    density = correct(means, covariances, np.zeros(1), 1.0, 1e-5, 0.001)
+
+    assert density == pytest.approx(0.001 / math.pi)
+    assert (means == before[0]).all()
+    assert (covariances == before[1]).all()
+
+
+def test_quantiles_of_one_gaussian_and_of_two_far_apart():
+    ones, zeros = np.ones(1), np.zeros(1)
+
+    assert quantile(ones, zeros, ones, 0.025) == pytest.approx(-1.959964, abs=1e-3)
+    assert quantile(3.0 * ones, 2.0 * ones, 4.0 * ones, 0.975) == pytest.approx(5.919928, abs=2e-3)
+    # The upper one has a quarter of the weight: the share 0.775 lies a tenth into it.
+    found = quantile(np.array([0.75, 0.25]), np.array([0.0, 100.0]), np.ones(2), 0.775)
+    assert found == pytest.approx(100.0 - 1.281552, abs=2e-2)
+    assert quantile(ones, 7.0 * ones, zeros, 0.025) == pytest.approx(7.0)

@@ -1,0 +1,57 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+import math
+
+import numpy as np
+import pytest
+
+from tactile_push.estimation import Estimate, Quantity, object_pose
+from tactile_push.mechanics import reach
+
+RADIUS = 0.0135
+
+
+def estimate_of(theta, d, l, covariance):
+    numbers = Quantity(d, d, d, d, d)
+    return Estimate(numbers, numbers, numbers, theta, covariance, l, 1.0, '')
+
+
+@pytest.mark.parametrize(('theta', 'd'), [(0.0, 0.0), (0.3, -0.006), (-0.5, 0.01)])
+def test_the_pose_is_where_the_mechanics_has_the_object(theta, d):
+    pose, _ = object_pose(estimate_of(theta, d, 0.02375, np.zeros((3, 3))), RADIUS)
+
+    x, y = reach(theta, d, 0.02375, RADIUS)  # from the centre of mass to the disk
+    assert pose == pytest.approx([-x, -y, theta], abs=1e-15)
+
+
+def test_the_covariance_is_that_of_many_poses():
+    rng = np.random.default_rng(0)
+    mean = np.array([0.3, -0.006, 0.02375])
+    root = np.array([[0.01, 0.0, 0.0], [-0.0004, 0.001, 0.0], [0.0, 0.0, 0.0005]])
+    _, covariance = object_pose(estimate_of(*mean, root @ root.T), RADIUS)
+
+    poses = [
+        (*(-value for value in reach(*row, RADIUS)), row[0])
+        for row in mean + rng.standard_normal((8000, 3)) @ root.T
+    ]
+    scale = np.sqrt(np.diag(covariance))
+    difference = (np.cov(np.array(poses).T) - covariance) / np.outer(scale, scale)
+    assert difference == pytest.approx(0.0, rel=0, abs=0.05)
+
+
+def test_before_any_data_the_pose_is_none():
+    pose, _ = object_pose(estimate_of(math.nan, 0.0, 0.02375, np.zeros((3, 3))), RADIUS)
+
+    assert np.isnan(pose).all()
