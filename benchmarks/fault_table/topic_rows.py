@@ -211,7 +211,7 @@ def another_command_not_finite(rig: Rig) -> None:
     _held(rig, 'another command')
 
 
-@fault('two controllers', ONE_PERIOD + 0.1)
+@fault('two controllers', ONE_PERIOD)
 def two_controllers(rig: Rig) -> None:
     """Both stop: another command; the one that is left resumes by service."""
     finger = rig.finger
@@ -230,9 +230,10 @@ def two_controllers(rig: Rig) -> None:
         lambda: finger.count('push_controller', 'other publishers of finger/cmd_vel'),
         'the controller to find the other',
     )
-    at = time.monotonic()
+    ticks = rig.observer.hear(JointState, f'{SECOND}/state')
     rig.observer.reach_state(SECOND, State.PRIMARY_STATE_ACTIVE)
-    rig.stopped(at)
+    rig.observer.wait_for(lambda: ticks, 'the second controller to tick')
+    rig.stopped(ticks[0].at)
     finger.signal(SECOND, signal.SIGINT)
     status = finger.ended(SECOND)
     expect(status == 0, f'exit status {status}')
