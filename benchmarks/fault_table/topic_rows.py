@@ -24,6 +24,7 @@ from geometry_msgs.msg import PoseStamped, Quaternion, TwistStamped
 from lifecycle_msgs.msg import State
 from sensor_msgs.msg import JointState
 
+from .messages import field
 from .promise import ONE_PERIOD, fault
 from .rig import Rig, expect
 
@@ -232,8 +233,12 @@ def two_controllers(rig: Rig) -> None:
     )
     ticks = rig.observer.hear(JointState, f'{SECOND}/state')
     rig.observer.reach_state(SECOND, State.PRIMARY_STATE_ACTIVE)
-    rig.observer.wait_for(lambda: ticks, 'the second controller to tick')
-    rig.stopped(ticks[0].at)
+
+    def commands() -> list[float]:
+        return [tick.at for tick in ticks if math.isfinite(field(tick.message, 'v_x'))]
+
+    first, *_ = rig.observer.wait_for(commands, 'the second controller to command the finger')
+    rig.stopped(first)
     finger.signal(SECOND, signal.SIGINT)
     status = finger.ended(SECOND)
     expect(status == 0, f'exit status {status}')
