@@ -53,7 +53,7 @@ class NodeProcesses:
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        self._domain, self._lock = _claim_domain()
+        self._domain, self._lock = claim_domain()
         self.environment = {
             **os.environ,
             'ROS_DOMAIN_ID': str(self._domain),
@@ -187,8 +187,21 @@ def yaml_value(value: Any) -> str:
     return str(value)
 
 
-def _claim_domain() -> tuple[int, IO[bytes]]:
-    """Find a ROS domain that nobody uses through this function, and a lock that keeps it so."""
+def claim_domain() -> tuple[int, IO[bytes]]:
+    """Find a ROS domain that nobody on this machine uses through this function.
+
+    Returns
+    -------
+    domain : int
+        Its id.
+    lock : file
+        Keeps it so until it is closed.
+
+    Raises
+    ------
+    RuntimeError
+        If there is none.
+    """
     for domain in random.sample(DOMAINS, len(DOMAINS)):
         path = Path(tempfile.gettempdir()) / f'tactile_push_domain_{domain}.{os.getuid()}.lock'
         lock = path.open('wb')

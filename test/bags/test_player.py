@@ -13,7 +13,6 @@
 # limitations under the License.
 """The player with real subscribers, in a domain of its own for each test."""
 
-import random
 import time
 from types import SimpleNamespace
 
@@ -33,6 +32,7 @@ from tactile_push.bags import BagWriter  # noqa: E402
 from tactile_push.bags.player import PATIENCE, QUIET, Player  # noqa: E402
 from tactile_push.bags.reader import BagError, BagReader  # noqa: E402
 from tactile_push.bags.schedule import part_of  # noqa: E402
+from tactile_push.processes import claim_domain  # noqa: E402
 
 EPOCH = 1_700_000_000_000_000_000  # [ns]
 MS = 10**6
@@ -55,7 +55,8 @@ class Graph:
 
     def __init__(self):
         self.context = Context()
-        rclpy.init(context=self.context, domain_id=random.randint(1, 100))
+        domain, self.lock = claim_domain()
+        rclpy.init(context=self.context, domain_id=domain)
         self.node = rclpy.create_node('player', context=self.context)
         self.listener = rclpy.create_node('listener', context=self.context)
         self.executor = SingleThreadedExecutor(context=self.context)
@@ -110,6 +111,7 @@ class Graph:
         self.node.destroy_node()
         self.listener.destroy_node()
         rclpy.shutdown(context=self.context)
+        self.lock.close()
 
 
 @pytest.fixture

@@ -15,7 +15,6 @@
 
 import errno
 import os
-import random
 import time
 import uuid
 
@@ -41,6 +40,7 @@ from visualization_msgs.msg import Marker, MarkerArray  # noqa: E402
 
 from tactile_push.bags import BagWriter  # noqa: E402
 from tactile_push.bags.recorder import Recorder, common_type_hash, message_class  # noqa: E402
+from tactile_push.processes import claim_domain  # noqa: E402
 
 # type_hashes in share/sensor_msgs/msg/JointState.json of ROS 2 Jazzy.
 JOINT_STATE_HASH = 'RIHS01_a13ee3a330e346c9d87b5aa18d24e11690752bd33a0350f11c5882bc9179260e'
@@ -55,7 +55,7 @@ class Graph:
 
     def __init__(self, use_sim_time=False):
         self.context, self.elsewhere = Context(), Context()
-        domain = random.randint(1, 100)
+        domain, self.lock = claim_domain()
         rclpy.init(context=self.context, domain_id=domain)
         rclpy.init(context=self.elsewhere, domain_id=domain)
         self.stranger = rclpy.create_node('stranger', context=self.elsewhere)
@@ -89,6 +89,7 @@ class Graph:
         self.plant.destroy_node()
         self.stranger.destroy_node()
         rclpy.shutdown(context=self.context)
+        self.lock.close()
         rclpy.shutdown(context=self.elsewhere)
 
 

@@ -14,7 +14,6 @@
 """The node between sensor and controller: messages as they should not be, and its health."""
 
 import math
-import random
 from types import SimpleNamespace
 
 import pytest
@@ -29,6 +28,7 @@ from sensor_msgs.msg import JointState  # noqa: E402
 from tactile_push.nodes import contact_geometry  # noqa: E402
 from tactile_push.nodes.contact_geometry import ContactGeometry  # noqa: E402
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN  # noqa: E402
+from tactile_push.processes import claim_domain  # noqa: E402
 from tactile_push.tactile import REFUSALS  # noqa: E402
 
 PROPERTY = settings(derandomize=True, deadline=None, max_examples=100)
@@ -80,9 +80,11 @@ def message(names, position, sec, nanosec):
 
 @pytest.fixture(scope='module')
 def ros():
-    rclpy.init(domain_id=random.randint(1, 100))
+    domain, lock = claim_domain()
+    rclpy.init(domain_id=domain)
     yield
     rclpy.shutdown()
+    lock.close()
 
 
 @pytest.fixture

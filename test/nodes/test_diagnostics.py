@@ -13,7 +13,6 @@
 # limitations under the License.
 """What a node says of itself: once a second, and at once when the level changes."""
 
-import random
 import time
 import uuid
 
@@ -26,6 +25,7 @@ from rclpy.context import Context  # noqa: E402
 from rclpy.executors import SingleThreadedExecutor  # noqa: E402
 
 from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health  # noqa: E402
+from tactile_push.processes import claim_domain  # noqa: E402
 
 PATIENCE = 30.0  # [s]
 
@@ -35,7 +35,8 @@ class Patient:
 
     def __init__(self):
         self.context = Context()
-        rclpy.init(context=self.context, domain_id=random.randint(1, 100))
+        domain, self.lock = claim_domain()
+        rclpy.init(context=self.context, domain_id=domain)
         self.namespace = f'test_{uuid.uuid4().hex}'
         self.node = rclpy.create_node('patient', context=self.context, namespace=self.namespace)
         self.executor = SingleThreadedExecutor(context=self.context)

@@ -12,7 +12,6 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-import random
 import signal
 import threading
 
@@ -23,16 +22,19 @@ rclpy = pytest.importorskip('rclpy')
 from rclpy.signals import SignalHandlerOptions  # noqa: E402
 
 from tactile_push.nodes.executor import Executor  # noqa: E402
+from tactile_push.processes import claim_domain  # noqa: E402
 
 
 @pytest.fixture
 def node():
     """Make a node in the process's own context, which the executor takes."""
-    rclpy.init(domain_id=random.randint(1, 100), signal_handler_options=SignalHandlerOptions.NO)
+    domain, lock = claim_domain()
+    rclpy.init(domain_id=domain, signal_handler_options=SignalHandlerOptions.NO)
     node = rclpy.create_node('alone')
     yield node
     node.destroy_node()
     rclpy.shutdown()
+    lock.close()
 
 
 @pytest.fixture

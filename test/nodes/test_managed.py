@@ -13,8 +13,6 @@
 # limitations under the License.
 """A managed node does what its state allows, and outlives being asked for anything else."""
 
-import random
-
 import pytest
 
 rclpy = pytest.importorskip('rclpy')
@@ -27,16 +25,19 @@ from rclpy.lifecycle import TransitionCallbackReturn  # noqa: E402
 
 from tactile_push.nodes.managed import ManagedNode  # noqa: E402
 from tactile_push.nodes.parameters import ConfigurationError  # noqa: E402
+from tactile_push.processes import claim_domain  # noqa: E402
 
 
 @pytest.fixture
 def context(monkeypatch):
     """Make a context that nodes take for that of their process."""
     context = Context()
-    rclpy.init(context=context, domain_id=random.randint(1, 100))
+    domain, lock = claim_domain()
+    rclpy.init(context=context, domain_id=domain)
     monkeypatch.setattr('rclpy.node.get_default_context', lambda: context)
     yield context
     rclpy.shutdown(context=context)
+    lock.close()
 
 
 @pytest.fixture

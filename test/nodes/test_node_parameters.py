@@ -15,7 +15,6 @@
 
 import importlib
 import math
-import random
 import uuid
 
 import pytest
@@ -33,6 +32,7 @@ from tactile_push.nodes.parameters import (  # noqa: E402
     declare,
     descriptor,
 )
+from tactile_push.processes import claim_domain  # noqa: E402
 
 NODES = {
     'sensor_driver': 'SensorDriver',
@@ -76,9 +76,11 @@ class Changes:
 def context():
     """Return a private context."""
     context = Context()
-    rclpy.init(context=context, domain_id=random.randint(1, 100))
+    domain, lock = claim_domain()
+    rclpy.init(context=context, domain_id=domain)
     yield context
     rclpy.shutdown(context=context)
+    lock.close()
 
 
 @pytest.fixture

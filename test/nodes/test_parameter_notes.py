@@ -13,7 +13,6 @@
 # limitations under the License.
 """Asking nodes of this process for their parameters."""
 
-import random
 import re
 import time
 from pathlib import Path
@@ -26,6 +25,7 @@ from rclpy.context import Context  # noqa: E402
 from rclpy.executors import SingleThreadedExecutor  # noqa: E402
 
 from tactile_push.nodes.parameter_notes import NODES, ParameterNotes  # noqa: E402
+from tactile_push.processes import claim_domain  # noqa: E402
 
 
 class Graph:
@@ -33,7 +33,8 @@ class Graph:
 
     def __init__(self):
         self.context = Context()
-        rclpy.init(context=self.context, domain_id=random.randint(1, 100))
+        domain, self.lock = claim_domain()
+        rclpy.init(context=self.context, domain_id=domain)
         self.executor = SingleThreadedExecutor(context=self.context)
         self.nodes = []
         self.asker = self.add('bag_recorder')

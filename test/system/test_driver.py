@@ -361,12 +361,13 @@ def test_half_of_the_sentences_corrupted_costs_those_and_no_others(driver: Drive
     assert set(of_those) <= intact | set(range(before + 1, min(intact)))
     assert len(of_those) == len(set(of_those))
     assert len(intact) > 200
+    assert sent - len(intact) > 200
+    # Only a loaded machine makes readings late; what is not late has come, or is dropped.
     driver.wait_for(
-        lambda: driver.counted('dropped: wrong checksum') > 100, 'drops to be counted by reason'
+        lambda: driver.dropped() + driver.counted('late') >= sent - len(of_those),
+        'what has not come to be counted by reason',
     )
-    # Only a loaded machine makes readings late; what is not late has come.
-    assert len(intact - set(of_those)) <= driver.counted('late')
-    assert driver.dropped() >= sent - len(intact)
+    assert driver.counted('dropped: wrong checksum') > 0
 
 
 def test_line_noise_without_line_ends_does_not_fill_the_memory(driver: Driver):
