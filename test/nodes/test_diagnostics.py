@@ -72,6 +72,7 @@ def patient():
     patient.executor.shutdown()
     patient.node.destroy_node()
     rclpy.shutdown(context=patient.context)
+    patient.lock.close()
 
 
 def levels(messages):

@@ -65,6 +65,7 @@ def graph():
     for node in graph.nodes:
         node.destroy_node()
     rclpy.shutdown(context=graph.context)
+    graph.lock.close()
 
 
 def mine(parameters):
