@@ -19,6 +19,7 @@ What needs compiled mathematics is imported when it is first asked for.
 import importlib
 import typing
 
+from tactile_push.estimation.finger_motion import FingerMotion
 from tactile_push.estimation.translation import (
     bounds_of_translation,
     centre_on_ray,
@@ -27,8 +28,14 @@ from tactile_push.estimation.translation import (
 )
 
 if typing.TYPE_CHECKING:
+    from tactile_push.estimation.active_sensing import ActiveSensing
+    from tactile_push.estimation.bank import Liberties
     from tactile_push.estimation.contact_estimator import ContactEstimator, Estimate, Quantity
+    from tactile_push.estimation.contradictions import CONTRADICTIONS
+    from tactile_push.estimation.disk_estimator import DiskEstimator
+    from tactile_push.estimation.edges import Edge, edges_of
     from tactile_push.estimation.guaranteed import GuaranteedSet, ModelBounds
+    from tactile_push.estimation.object_estimator import ObjectEstimate, ObjectEstimator
     from tactile_push.estimation.pose import object_pose
     from tactile_push.estimation.prior import Prior
     from tactile_push.estimation.rays import (
@@ -37,13 +44,22 @@ if typing.TYPE_CHECKING:
         Ray,
         intersect_rays,
     )
+    from tactile_push.estimation.record import sensing_values, tells_pose
 
 __all__ = [
+    'CONTRADICTIONS',
+    'ActiveSensing',
     'ContactEstimator',
+    'DiskEstimator',
+    'Edge',
     'Estimate',
+    'FingerMotion',
     'GuaranteedSet',
     'Intersection',
+    'Liberties',
     'ModelBounds',
+    'ObjectEstimate',
+    'ObjectEstimator',
     'ParallelRaysError',
     'Prior',
     'Quantity',
@@ -51,21 +67,34 @@ __all__ = [
     'bounds_of_translation',
     'centre_on_ray',
     'contact_of_translation',
+    'edges_of',
     'intersect_rays',
     'object_pose',
+    'sensing_values',
+    'tells_pose',
     'translates',
 ]
 
 _COMPILED = {
+    'ActiveSensing': 'active_sensing',
+    'sensing_values': 'record',
+    'tells_pose': 'record',
+    'CONTRADICTIONS': 'contradictions',
     'ContactEstimator': 'contact_estimator',
+    'DiskEstimator': 'disk_estimator',
+    'Edge': 'edges',
     'Estimate': 'contact_estimator',
     'GuaranteedSet': 'guaranteed',
+    'Liberties': 'bank',
     'ModelBounds': 'guaranteed',
+    'ObjectEstimate': 'object_estimator',
+    'ObjectEstimator': 'object_estimator',
     'Prior': 'prior',
     'Quantity': 'contact_estimator',
     'Intersection': 'rays',
     'ParallelRaysError': 'rays',
     'Ray': 'rays',
+    'edges_of': 'edges',
     'intersect_rays': 'rays',
     'object_pose': 'pose',
 }

@@ -13,11 +13,12 @@
 # limitations under the License.
 """What cannot be excluded: boxes of all unknowns, moved by bounds on the mechanics.
 
-No probabilities. A cell is a box of theta, of d + r theta, which a sticking contact keeps, of c^2
-and of alpha = atan(mu_c). A push moves its faces by the least and the most that any motion inside
-the box and within the bounds on the model can do; a reading cuts theta off beyond the bound on its
-noise; a cell with nothing left is gone, and what is left is halved as often as there is room. So
-the truth is in one of the cells as long as the bounds hold.
+No probabilities. A cell is a box of theta, of d + r (theta - theta_0), theta_0 being the first
+reading, which a sticking contact keeps whatever r is, of c^2 and of alpha = atan(mu_c). A push
+moves its faces by the least and the most that any motion inside the box and within the bounds on
+the model can do; a reading cuts theta off beyond the bound on its noise; a cell with nothing left
+is gone, and what is left is halved as often as there is room. So the truth is in one of the cells
+as long as the bounds hold.
 
 For every contact that moves the object at (v_ot, v_n), along tangent and normal,
 omega = (d v_n + l v_ot)/(c^2 + d^2 + l^2): (11) with (9) and (10), also when it slips. The true
@@ -33,7 +34,7 @@ import numpy as np
 from tactile_push.mechanics.compiled import Array, compiled, equation
 
 THETA_LOW, THETA_HIGH = 0, 1  # [rad]
-ROLLED_LOW, ROLLED_HIGH = 2, 3  # d + r theta [m]
+ROLLED_LOW, ROLLED_HIGH = 2, 3  # d + r (theta - theta_0) [m]
 C_SQUARED_LOW, C_SQUARED_HIGH = 4, 5  # [m^2]
 ALPHA_LOW, ALPHA_HIGH = 6, 7  # [rad]
 FACES = 8
@@ -135,9 +136,11 @@ def slope(angle: float) -> float:
     Returns
     -------
     float
-        The slope, 100 at the most either way.
+        The slope; minus infinity of what leans to the left that far, where nothing slips.
     """
-    return -math.tan(min(max(angle, -STEEPEST), STEEPEST))
+    if angle >= STEEPEST:
+        return -math.inf
+    return -math.tan(max(angle, -STEEPEST))
 
 
 @equation
@@ -148,7 +151,9 @@ def rate_bounds(
     v_y: float,
     l_low: float,
     l_high: float,
-    r: float,
+    r_low: float,
+    r_high: float,
+    theta_0: float,
     share: float,
     angle: float,
 ) -> tuple[float, float, float, float]:
@@ -164,8 +169,10 @@ def rate_bounds(
         Velocity of the finger relative to the support [m/s].
     l_low, l_high : float
         Bounds of l [m].
-    r : float
-        Radius of the finger's disk [m].
+    r_low, r_high : float
+        Bounds of the radius of the finger's disk [m].
+    theta_0 : float
+        The first reading [rad].
     share : float
         How far omega may be from the ellipsoid's, as a share of it, below 1.
     angle : float
@@ -176,11 +183,13 @@ def rate_bounds(
     omega_low, omega_high : float
         Bounds of the rate of theta [rad/s].
     slip_low, slip_high : float
-        Bounds of the velocity of slip, the rate of d + r theta [m/s].
+        Bounds of the velocity of slip, the rate of d + r (theta - theta_0) [m/s].
     """
     cos, sin = math.cos(theta), math.sin(theta)
     v_t, v_n = cos * v_x + sin * v_y, cos * v_y - sin * v_x
-    d_low, d_high = cell[ROLLED_LOW] - r * theta, cell[ROLLED_HIGH] - r * theta
+    turned = theta - theta_0
+    rolled_low, rolled_high = times(r_low, r_high, turned, turned)
+    d_low, d_high = cell[ROLLED_LOW] - rolled_high, cell[ROLLED_HIGH] - rolled_low
     low, high = cell[C_SQUARED_LOW], cell[C_SQUARED_HIGH]
     if v_n > 0.0:
         weak, strong = cell[ALPHA_LOW], cell[ALPHA_HIGH]
@@ -217,7 +226,9 @@ def push_cells(
     d_high: float,
     l_low: float,
     l_high: float,
-    r: float,
+    r_low: float,
+    r_high: float,
+    theta_0: float,
     share: float,
     angle: float,
 ) -> int:
@@ -227,7 +238,7 @@ def push_cells(
     ----------
     cells : ndarray, shape (H, 8)
         The cells, changed; those that are left come first.
-    v_x, v_y, l_low, l_high, r, share, angle
+    v_x, v_y, l_low, l_high, r_low, r_high, theta_0, share, angle
         As `rate_bounds` takes them.
     duration : float
         How long [s], for half a millimetre at the most.
@@ -245,18 +256,40 @@ def push_cells(
     for h in range(len(cells)):
         cell = cells[h]
         theta_low, theta_high = cell[THETA_LOW], cell[THETA_HIGH]
-        a, _, low_a, high_a = rate_bounds(theta_low, cell, v_x, v_y, l_low, l_high, r, share, angle)
+        a, _, low_a, high_a = rate_bounds(
+            theta_low, cell, v_x, v_y, l_low, l_high, r_low, r_high, theta_0, share, angle
+        )
         _, b, low_b, high_b = rate_bounds(
-            theta_high, cell, v_x, v_y, l_low, l_high, r, share, angle
+            theta_high, cell, v_x, v_y, l_low, l_high, r_low, r_high, theta_0, share, angle
         )
         middle[:] = cell
         middle[ROLLED_LOW] += half * min(low_a, low_b)
         middle[ROLLED_HIGH] += half * max(high_a, high_b)
         a, _, low_a, high_a = rate_bounds(
-            theta_low + half * a, middle, v_x, v_y, l_low, l_high, r, share, angle
+            theta_low + half * a,
+            middle,
+            v_x,
+            v_y,
+            l_low,
+            l_high,
+            r_low,
+            r_high,
+            theta_0,
+            share,
+            angle,
         )
         _, b, low_b, high_b = rate_bounds(
-            theta_high + half * b, middle, v_x, v_y, l_low, l_high, r, share, angle
+            theta_high + half * b,
+            middle,
+            v_x,
+            v_y,
+            l_low,
+            l_high,
+            r_low,
+            r_high,
+            theta_0,
+            share,
+            angle,
         )
         # Between the faces of theta the velocity of slip bends by no more than this.
         slack = LENGTH_SLACK + speed * duration * (theta_high - theta_low) ** 2
@@ -264,7 +297,8 @@ def push_cells(
         theta_high += duration * b + ANGLE_SLACK
         low = cell[ROLLED_LOW] + duration * min(low_a, low_b) - slack
         high = cell[ROLLED_HIGH] + duration * max(high_a, high_b) + slack
-        low, high = max(low, d_low + r * theta_low), min(high, d_high + r * theta_high)
+        rolled_low, rolled_high = times(r_low, r_high, theta_low - theta_0, theta_high - theta_0)
+        low, high = max(low, d_low + rolled_low), min(high, d_high + rolled_high)
         if low <= high:
             middle[THETA_LOW], middle[THETA_HIGH] = theta_low, theta_high
             middle[ROLLED_LOW], middle[ROLLED_HIGH] = low, high
@@ -300,7 +334,7 @@ def cut_cells(cells: Array, theta_low: float, theta_high: float) -> int:
 
 
 @compiled
-def split_cells(cells: Array, count: int, l: float, r: float) -> int:
+def split_cells(cells: Array, count: int, l: float, r: float, theta_0: float) -> int:
     """Halve every cell across the side that says least about the turning rate.
 
     Parameters
@@ -313,6 +347,8 @@ def split_cells(cells: Array, count: int, l: float, r: float) -> int:
         Distance from the edge to the centre of mass [m].
     r : float
         Radius of the finger's disk [m].
+    theta_0 : float
+        The first reading [rad].
 
     Returns
     -------
@@ -321,7 +357,8 @@ def split_cells(cells: Array, count: int, l: float, r: float) -> int:
     """
     for h in range(count):
         cell = cells[h]
-        d = (cell[ROLLED_LOW] + cell[ROLLED_HIGH] - r * (cell[THETA_LOW] + cell[THETA_HIGH])) / 2.0
+        turned = (cell[THETA_LOW] + cell[THETA_HIGH]) / 2.0 - theta_0
+        d = (cell[ROLLED_LOW] + cell[ROLLED_HIGH]) / 2.0 - r * turned
         square = (cell[C_SQUARED_LOW] + cell[C_SQUARED_HIGH]) / 2.0 + d * d + l * l
         widest, face = -1.0, ROLLED_LOW
         for low in range(0, FACES, 2):

@@ -80,20 +80,24 @@ class GuaranteedSet:
         What is known before any data.
     bounds : ModelBounds
         How far sensor and object may be from the model.
-    radius : float
-        Effective radius of the finger's disk [m].
+    radius : tuple of float
+        Least and most radius of the finger's disk [m].
     theta : float
         The first reading [rad].
     """
 
-    def __init__(self, prior: Prior, bounds: ModelBounds, radius: float, theta: float) -> None:
+    def __init__(
+        self, prior: Prior, bounds: ModelBounds, radius: tuple[float, float], theta: float
+    ) -> None:
         self._prior = prior
         self._bounds = bounds
         self._radius = radius
+        self._theta = theta
         self._cells = np.zeros((CELLS, FACES))
         low, high = theta - bounds.noise, theta + bounds.noise
+        rolled = radius[1] * bounds.noise
         self._cells[0] = (
-            *(low, high, prior.d[0] + radius * low, prior.d[1] + radius * high),
+            *(low, high, prior.d[0] - rolled, prior.d[1] + rolled),
             *(prior.c[0] ** 2, prior.c[1] ** 2, *map(math.atan, prior.mu_c)),
         )
         self._count = 1
@@ -116,8 +120,11 @@ class GuaranteedSet:
         if self.empty:
             return np.array([prior.d, prior.c, prior.mu_c])
         cells = self._cells[: self._count]
-        low = (cells[:, ROLLED_LOW] - self._radius * cells[:, THETA_HIGH]).min()
-        high = (cells[:, ROLLED_HIGH] - self._radius * cells[:, THETA_LOW]).max()
+        # How far it has rolled is greatest or least at the ends of both radius and turn.
+        turns = cells[:, [THETA_LOW, THETA_HIGH]] - self._theta
+        rolled = np.concatenate([radius * turns for radius in self._radius], axis=1)
+        low = (cells[:, ROLLED_LOW] - rolled.max(axis=1)).min()
+        high = (cells[:, ROLLED_HIGH] - rolled.min(axis=1)).max()
         return np.array(
             [
                 [max(low, prior.d[0]), min(high, prior.d[1])],
@@ -147,7 +154,8 @@ class GuaranteedSet:
                 *prior.d,
                 prior.l - 3.0 * prior.l_sigma,
                 prior.l + 3.0 * prior.l_sigma,
-                self._radius,
+                *self._radius,
+                self._theta,
                 bounds.turn,
                 bounds.cone,
             )
@@ -167,4 +175,6 @@ class GuaranteedSet:
     def _split(self) -> None:
         """Halve the cells while there is room."""
         while 0 < 2 * self._count <= CELLS:
-            self._count = split_cells(self._cells, self._count, self._prior.l, self._radius)
+            self._count = split_cells(
+                self._cells, self._count, self._prior.l, sum(self._radius) / 2.0, self._theta
+            )

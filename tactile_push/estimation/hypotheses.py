@@ -13,7 +13,7 @@
 # limitations under the License.
 """Many guesses of where on the edge the finger is, each moved by the mechanics and corrected.
 
-A hypothesis is a Gaussian of the five numbers that the mechanics needs, in the order of the
+A hypothesis is a Gaussian of the seven numbers that the mechanics needs, in the order of the
 columns below, and a weight. A push moves its mean and covariance through `pushed_twist` at points
 around the mean (the cubature rule, exact to the third order), so that sticking, slipping and the
 passage between them need no derivatives. A reading of theta corrects it as a Kalman filter does,
@@ -30,12 +30,18 @@ from tactile_push.mechanics.motion import pushed_twist
 
 THETA = 0  # angle of the edge [rad]
 D = 1  # contact along the edge [m]
-C_SQUARED = 2  # c^2 [m^2], of which the turning rate is a simple function
+LOG_C = 2  # ln(c/1 m), which has no bound that a Gaussian could cross
 ALPHA = 3  # half angle of the friction cone, atan(mu_c) [rad]
 L = 4  # distance from the edge to the centre of mass [m]
-UNKNOWNS = 5
+R = 5  # radius of the finger's disk [m]
+GROWTH = 6  # by how much c^2 grows, as a share of it, with (omega c/|v|)^2
+UNKNOWNS = 7
 
 RIGHT_ANGLE = math.pi / 2.0
+SMOOTH = 5e-3  # way over which a change of the motion is felt [m]
+SLOWEST = 1e-24  # squared speed of a finger that stands [m^2/s^2]
+SMALLEST, LARGEST = math.log(1e-4), math.log(10.0)  # c that counts as none, and as any [ln m]
+LEAST_GROWN = 0.1  # c^2 does not shrink to less than this share of it
 NEVER = 1e-18  # a variance up to this, in units of the unknown, is none
 
 
@@ -48,9 +54,8 @@ def rates(
     l: float,
     v_x: float,
     v_y: float,
-    r: float,
 ) -> tuple[float, float]:
-    """Give the rates of theta and d while a straight edge is pushed.
+    """Give the rates of turning and slipping while a straight edge, or a tangent, is pushed.
 
     Parameters
     ----------
@@ -66,15 +71,13 @@ def rates(
         Distance from the edge to the centre of mass [m].
     v_x, v_y : float
         Velocity of the finger relative to the support [m/s].
-    r : float
-        Radius of the finger's disk [m].
 
     Returns
     -------
     omega : float
-        Rate of theta [rad/s].
-    d_dot : float
-        Rate of d [m/s], eq. (16).
+        Rate of turning [rad/s].
+    v_slip : float
+        Velocity of slip [m/s], eq. (14).
     """
     cos, sin = math.cos(theta), math.sin(theta)
     cos_alpha, sin_alpha = 1.0, 0.0
@@ -86,7 +89,7 @@ def rates(
         cos * v_x + sin * v_y, cos * v_y - sin * v_x, d, -l, cos_alpha, sin_alpha,
         math.sqrt(c_squared),
     )  # fmt: skip
-    return omega, v_slip - omega * r  # (16)
+    return omega, v_slip
 
 
 @equation
@@ -96,29 +99,56 @@ def advance(
     c_squared: float,
     alpha: float,
     l: float,
+    r: float,
+    growth: float,
     v_x: float,
     v_y: float,
     duration: float,
-    r: float,
-) -> tuple[float, float]:
+    curved: bool,
+) -> tuple[float, float, float]:
     """Push for a short while, by the midpoint rule.
 
     Parameters
     ----------
-    theta, d, c_squared, alpha, l, v_x, v_y, r
-        As `rates` takes them.
+    theta, d, c_squared, alpha, l, v_x, v_y
+        As `rates` takes them; c^2 is that of an object that hardly turns.
+    r : float
+        Radius of the finger's disk [m].
+    growth : float
+        By how much c^2 grows, as a share of it, with (omega c/|v|)^2.
     duration : float
         How long [s].
+    curved : bool
+        Whether the object is a disk about its centre of mass, l its radius.
 
     Returns
     -------
     theta, d : float
         Angle and contact at the end [rad, m].
+    slip : float
+        How far the contact has slipped [m].
     """
+    # On a disk d stays, and theta changes with the place of the tangent, too.
+    along, around = (0.0, 1.0 / (l + r)) if curved else (1.0, 0.0)
     half = duration / 2.0
-    omega, d_dot = rates(theta, d, c_squared, alpha, l, v_x, v_y, r)
-    omega, d_dot = rates(theta + half * omega, d + half * d_dot, c_squared, alpha, l, v_x, v_y, r)
-    return theta + duration * omega, d + duration * d_dot
+    omega, v_slip = rates(theta, d, c_squared, alpha, l, v_x, v_y)
+    way = v_slip - omega * r  # (16)
+    grown = 1.0 + growth * omega * omega * c_squared / max(v_x * v_x + v_y * v_y, SLOWEST)
+    omega, v_slip = rates(
+        theta + half * (omega + around * way),
+        d + half * along * way,
+        c_squared * max(grown, LEAST_GROWN),
+        alpha,
+        l,
+        v_x,
+        v_y,
+    )
+    way = v_slip - omega * r
+    return (
+        theta + duration * (omega + around * way),
+        d + duration * along * way,
+        duration * v_slip,
+    )
 
 
 @equation
@@ -139,68 +169,94 @@ def factorise(covariance: Array, root: Array) -> None:
 def predict(
     means: Array,
     covariances: Array,
+    motions: Array,
     v_x: float,
     v_y: float,
     duration: float,
-    r: float,
-    least_c_squared: float,
-    most_c_squared: float,
     scatter: float,
     slip_scatter: float,
     drift: float,
+    curved: bool,
 ) -> None:
     """Move all hypotheses on by a short push.
 
     Parameters
     ----------
-    means : ndarray, shape (H, 5)
+    means : ndarray, shape (H, 7)
         Means, changed.
-    covariances : ndarray, shape (H, 5, 5)
+    covariances : ndarray, shape (H, 7, 7)
         Covariances, changed.
+    motions : ndarray, shape (H, 2)
+        How the object moved in the last pushes, changed: direction of the contact's velocity in
+        the frame of the edge [rad] and turn per l of its way [rad]; NaN before the first push.
     v_x, v_y : float
         Velocity of the finger relative to the support [m/s].
     duration : float
-        How long [s].
-    r : float
-        Radius of the finger's disk [m].
-    least_c_squared, most_c_squared : float
-        Bounds of c^2 [m^2].
+        How long [s], more than 0.
     scatter : float
         Standard deviation of the turn itself, as a share of it.
     slip_scatter : float
         The same of the slip.
     drift : float
-        Standard deviation by which c^2 + l^2 changes meanwhile, as a share of it.
+        Standard deviation of the change of ln(c) while the motion changes by 1 rad; it grows with
+        the root of the change.
+    curved : bool
+        Whether the object is a disk about its centre of mass.
     """
-    count = 2 * UNKNOWNS
     root = np.zeros((UNKNOWNS, UNKNOWNS))
-    points = np.empty((count, 2))
-    deviations = np.empty((count, UNKNOWNS))
+    points = np.empty((2 * UNKNOWNS, 2))
+    deviations = np.empty((2 * UNKNOWNS, UNKNOWNS))
+    moved = np.empty(UNKNOWNS)
     for h in range(len(means)):
         mean, covariance = means[h], covariances[h]
         factorise(covariance, root)
-        theta, d = 0.0, 0.0
-        for i in range(count):
-            column = i % UNKNOWNS
-            scale = math.sqrt(UNKNOWNS) if i < UNKNOWNS else -math.sqrt(UNKNOWNS)
-            for j in range(UNKNOWNS):
-                deviations[i, j] = scale * root[j, column] if j >= column else 0.0
-            c_squared = mean[C_SQUARED] + deviations[i, C_SQUARED]
-            points[i, 0], points[i, 1] = advance(
-                mean[THETA] + deviations[i, THETA],
-                mean[D] + deviations[i, D],
-                min(max(c_squared, least_c_squared), most_c_squared),
-                mean[ALPHA] + deviations[i, ALPHA],
-                mean[L] + deviations[i, L],
-                v_x,
-                v_y,
-                duration,
-                r,
-            )
-            theta += points[i, 0] / count
-            d += points[i, 1] / count
-        turn = theta - mean[THETA]
-        slip = d - mean[D] + r * turn
+        # Of the points, those along what is known for certain are the mean itself.
+        uncertain = 0
+        for column in range(UNKNOWNS):
+            uncertain += root[column, column] > 0.0
+        count, weight = 2 * uncertain, 0.5 / max(uncertain, 1)
+        i, theta, d, slip = 0, 0.0, 0.0, 0.0
+        for column in range(UNKNOWNS):
+            if root[column, column] > 0.0 or (uncertain == 0 and column == 0):
+                for side in (math.sqrt(uncertain), -math.sqrt(uncertain)):
+                    for j in range(UNKNOWNS):
+                        deviations[i, j] = side * root[j, column] if j >= column else 0.0
+                        moved[j] = mean[j] + deviations[i, j]
+                    points[i, 0], points[i, 1], along = advance(
+                        moved[THETA],
+                        moved[D],
+                        math.exp(2.0 * min(max(moved[LOG_C], SMALLEST), LARGEST)),
+                        moved[ALPHA],
+                        moved[L],
+                        moved[R],
+                        moved[GROWTH],
+                        v_x,
+                        v_y,
+                        duration,
+                        curved,
+                    )
+                    theta += weight * points[i, 0]
+                    d += weight * points[i, 1]
+                    slip += weight * along
+                    i += 1
+        change, l, r = theta - mean[THETA], mean[L], mean[R]
+        turn = change
+        if curved:
+            turn = (change * (l + r) - slip) / l
+        middle = mean[THETA] + change / 2.0
+        cos, sin = math.cos(middle), math.sin(middle)
+        along = (cos * v_x + sin * v_y) * duration - slip
+        forward = (cos * v_y - sin * v_x) * duration
+        way = math.hypot(along, forward)
+        if way > 0.0:
+            # The finger's trembling is no change: what counts is the motion's mean over some way.
+            share, changed = way / (way + SMOOTH), 0.0
+            for i, value in enumerate((math.atan2(along, forward), turn * l / way)):
+                if math.isnan(motions[h, i]):
+                    motions[h, i] = value
+                changed += abs(share * (value - motions[h, i]))
+                motions[h, i] += share * (value - motions[h, i])
+            covariance[LOG_C, LOG_C] += drift**2 * changed
         mean[THETA], mean[D] = theta, d
         for i in range(count):
             deviations[i, THETA], deviations[i, D] = points[i, 0] - theta, points[i, 1] - d
@@ -209,15 +265,17 @@ def predict(
                 value = 0.0
                 for i in range(count):
                     value += deviations[i, j] * deviations[i, k]
-                covariance[j, k] = covariance[k, j] = value / count
-        # A turn that differs from the model's rolls the contact on by -r times as much.
+                covariance[j, k] = covariance[k, j] = weight * value
         extra = (scatter * turn) ** 2
-        covariance[THETA, THETA] += extra
-        covariance[THETA, D] -= r * extra
-        covariance[D, THETA] -= r * extra
-        covariance[D, D] += r * r * extra + (slip_scatter * slip) ** 2
-        resistance = min(max(mean[C_SQUARED], least_c_squared), most_c_squared) + mean[L] ** 2
-        covariance[C_SQUARED, C_SQUARED] += (drift * resistance) ** 2
+        slipped = (slip_scatter * slip) ** 2
+        if curved:
+            covariance[THETA, THETA] += (l**2 * extra + slipped) / (l + r) ** 2
+        else:
+            # A turn that differs from the model's rolls the contact on by -r times as much.
+            covariance[THETA, THETA] += extra
+            covariance[THETA, D] -= r * extra
+            covariance[D, THETA] -= r * extra
+            covariance[D, D] += r * r * extra + slipped
 
 
 @compiled
@@ -236,9 +294,9 @@ def correct(
 
     Parameters
     ----------
-    means : ndarray, shape (H, 5)
+    means : ndarray, shape (H, 7)
         Means, changed.
-    covariances : ndarray, shape (H, 5, 5)
+    covariances : ndarray, shape (H, 7, 7)
         Covariances, changed.
     log_weights : ndarray, shape (H,)
         Logarithms of the weights, changed; their sum of exponentials becomes 1.

@@ -22,7 +22,7 @@ from tactile_push.estimation.translation import centre_on_ray
 from tactile_push.mechanics.compiled import Array
 
 
-def object_pose(estimate: Estimate, r: float) -> tuple[Array, Array]:
+def object_pose(estimate: Estimate) -> tuple[Array, Array]:
     """Give the pose of the centre of mass in the frame of the finger's disk.
 
     The sensed theta and the estimated d determine it completely; to first order in their errors.
@@ -30,9 +30,7 @@ def object_pose(estimate: Estimate, r: float) -> tuple[Array, Array]:
     Parameters
     ----------
     estimate : Estimate
-        What is known of theta, d and l, theta past the first reading.
-    r : float
-        Radius of the finger's disk [m].
+        What is known of theta, d, l and r, theta past the first reading.
 
     Returns
     -------
@@ -42,7 +40,7 @@ def object_pose(estimate: Estimate, r: float) -> tuple[Array, Array]:
         Their covariance.
     """
     theta, d = estimate.theta, estimate.d.mean
-    x, y = centre_on_ray(theta, d, estimate.l, r)
+    x, y = centre_on_ray(theta, d, estimate.l, estimate.radius)
     cos, sin = math.cos(theta), math.sin(theta)
-    by_theta_d_l = np.array([[-y, -cos, -sin], [x, -sin, cos], [1.0, 0.0, 0.0]])
-    return np.array([x, y, theta]), by_theta_d_l @ estimate.covariance @ by_theta_d_l.T
+    by_numbers = np.array([[-y, -cos, -sin, -sin], [x, -sin, cos, cos], [1.0, 0.0, 0.0, 0.0]])
+    return np.array([x, y, theta]), by_numbers @ estimate.covariance @ by_numbers.T

@@ -19,14 +19,15 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+import numpy.typing as npt
 
-from tactile_push.estimation.hypotheses import ALPHA, C_SQUARED, UNKNOWNS, D, L
+from tactile_push.estimation.hypotheses import ALPHA, GROWTH, LOG_C, UNKNOWNS, D, L, R
 from tactile_push.mechanics import check_friction
 from tactile_push.mechanics.compiled import Array
 
-D_SPACING = 3e-3  # of the hypotheses [m]
+D_SPACING = 3.5e-3  # of the hypotheses [m]
 D_COUNTS = (4, 40)  # the fewest and the most along an edge
-C_COUNT, ALPHA_COUNT = 5, 5  # how many share c and a finite friction
+C_COUNT, ALPHA_COUNT = 4, 5  # how many share c and a finite friction
 NONE, SOME, STICKS = range(3)  # kinds of friction: mu_c = 0, between, infinite
 SHARES = (0.25, 0.5, 0.25)  # of the kinds, before any data
 
@@ -38,7 +39,7 @@ class Prior:
     Parameters
     ----------
     d : tuple of float
-        Ends of the pushed edge, least and most d [m].
+        Ends of the pushed edge, least and most d [m]; the same twice if d is known and stays so.
     l : float
         Distance from the edge to the centre of mass [m].
     l_sigma : float, optional
@@ -67,7 +68,8 @@ class Prior:
     def __post_init__(self) -> None:
         for name in ('d', 'c'):
             low, high = getattr(self, name)
-            if not (math.isfinite(low) and math.isfinite(high) and low < high):
+            grow = low < high or (name == 'd' and low == high)
+            if not (math.isfinite(low) and math.isfinite(high) and grow):
                 raise ValueError(f'{name}: expected two lengths that grow [m], got {low}, {high}')
         if not self.c[0] > 0.0:
             raise ValueError(f'c: expected positive lengths [m], got {self.c}')
@@ -86,12 +88,17 @@ def friction(alpha: float) -> float:
     return math.inf if alpha >= math.pi / 2.0 else max(0.0, math.tan(alpha))
 
 
-def spread(prior: Prior) -> tuple[Array, Array, Array, Array]:
-    """Spread hypotheses over a prior: means, covariances, kinds of friction and weights."""
-    few, many = D_COUNTS
+def spread(
+    prior: Prior, radius: tuple[float, float], growth: tuple[float, float]
+) -> tuple[Array, Array, npt.NDArray[np.int64], Array]:
+    """Spread hypotheses over a prior: means, covariances, kinds of friction and weights.
+
+    Of the finger's radius and of the growth of c^2 means and standard deviations are given.
+    """
+    few, many = D_COUNTS if prior.d[0] < prior.d[1] else (1, 1)
     count = min(max(math.ceil((prior.d[1] - prior.d[0]) / D_SPACING), few), many)
     d_edges = np.linspace(*prior.d, count + 1)
-    c_edges = np.linspace(*prior.c, C_COUNT + 1)
+    c_edges = np.geomspace(*prior.c, C_COUNT + 1)
     least, most = map(math.atan, prior.mu_c)
     frictions = []  # angle, variance, kind, weight
     if prior.mu_c[0] == 0.0:
@@ -112,16 +119,19 @@ def spread(prior: Prior) -> tuple[Array, Array, Array, Array]:
         for c_low, c_high in pairwise(c_edges):
             for angle, variance, kind, weight in frictions:
                 mean = np.zeros(UNKNOWNS)
-                mean[D], mean[C_SQUARED] = (d_low + d_high) / 2.0, (c_low**2 + c_high**2) / 2.0
+                mean[D], mean[LOG_C] = (d_low + d_high) / 2.0, math.log(c_low * c_high) / 2.0
                 mean[ALPHA], mean[L] = angle, prior.l
+                mean[R], mean[GROWTH] = radius[0], growth[0]
+                weight = weight * (c_high - c_low)
                 if prior.density is not None:
-                    middle = math.sqrt(mean[C_SQUARED])
+                    middle = math.exp(mean[LOG_C])
                     weight = weight * prior.density(mean[D], middle, friction(angle))
                 means.append(mean)
                 variances = np.zeros(UNKNOWNS)
                 variances[D] = (d_high - d_low) ** 2 / 12.0
-                variances[C_SQUARED] = (c_high**2 - c_low**2) ** 2 / 12.0
+                variances[LOG_C] = math.log(c_high / c_low) ** 2 / 12.0
                 variances[ALPHA], variances[L] = variance, prior.l_sigma**2
+                variances[R], variances[GROWTH] = radius[1] ** 2, growth[1] ** 2
                 covariances.append(np.diag(variances))
                 kinds.append(kind)
                 weights.append(weight)

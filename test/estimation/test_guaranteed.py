@@ -65,12 +65,50 @@ def test_the_truth_stays_in_its_cell(mu_c, support):
             share, angle = 0.6, math.radians(15.0)  # of this c, not of the best one
         cell = box_around(rng, theta, d, slider.c, mu_c)
 
-        left = push_cells(cell, v_x, 0.005, 0.1, -0.025, 0.025, HALF, HALF, RADIUS, share, angle)
+        left = push_cells(
+            *(cell, v_x, 0.005, 0.1, -0.025, 0.025, HALF, HALF, RADIUS, RADIUS, 0.0), share, angle
+        )
 
         theta, d = pushed(slider, theta, d, mu_c, v_x)
         assert left == 1
         assert cell[0, 0] <= theta <= cell[0, 1]
         assert cell[0, 2] <= d + RADIUS * theta <= cell[0, 3]
+
+
+def test_a_sticking_contact_stays_in_its_cell_where_the_finger_moves_along_the_edge():
+    rng = np.random.default_rng(4)
+    slider = Slider(BLOCK, 0.0187)
+    for _ in range(60):
+        theta, d = rng.uniform(1.5, 1.62), rng.uniform(-0.02, 0.02)
+        cell = np.empty((1, FACES))
+        values = (theta, d + RADIUS * theta, slider.c**2, math.pi / 2.0)
+        for i, (value, width) in enumerate(zip(values, (1e-4, 1e-5, 1e-7, 0.0), strict=True)):
+            cell[0, 2 * i], cell[0, 2 * i + 1] = value - width, value + width
+
+        left = push_cells(
+            *(cell, 0.0, 0.005, 0.1, -0.03, 0.03, HALF, HALF, RADIUS, RADIUS, 0.0),
+            *(0.3, math.radians(15.0)),
+        )
+
+        theta, d = pushed(slider, theta, d, math.inf, 0.0)
+        assert left == 1
+        assert cell[0, 0] <= theta <= cell[0, 1]
+        assert cell[0, 2] <= d + RADIUS * theta <= cell[0, 3]
+
+
+@pytest.mark.parametrize('error', [-0.15, 0.15])
+def test_the_truth_is_never_outside_while_l_and_r_are_within_their_bounds(error):
+    prior = Prior((-0.025, 0.025), HALF / (1.0 + error), 0.075 * HALF, mu_c=(math.inf, math.inf))
+    bounds = ModelBounds(math.radians(0.5), 0.0, 0.0)
+    told = RADIUS / (1.0 - error)
+    for seed in range(6):
+        slider = Slider(BLOCK, 0.006 + 0.005 * seed)
+        found, d = follow(slider, math.inf, prior, bounds, seed, radii=(0.775 * told, 1.225 * told))
+
+        (least, most), (least_c, most_c), _ = found.ranges()
+        assert least <= d <= most
+        assert least_c <= slider.c <= most_c
+        assert most - least < 0.04
 
 
 def test_splitting_keeps_the_whole():
@@ -79,7 +117,7 @@ def test_splitting_keeps_the_whole():
     whole = cells[0].copy()
     count = 1
     while count < 64:
-        count = split_cells(cells, count, HALF, RADIUS)
+        count = split_cells(cells, count, HALF, RADIUS, 0.0)
 
     sides = cells[:, 1::2] - cells[:, ::2]
     assert (sides > 0.0).all()
@@ -88,12 +126,12 @@ def test_splitting_keeps_the_whole():
     assert cells[:, 1::2].max(axis=0) == pytest.approx(whole[1::2])
 
 
-def follow(slider, mu_c, prior, bounds, seed, steps=120):
+def follow(slider, mu_c, prior, bounds, seed, steps=120, radii=(RADIUS, RADIUS)):
     """Steer a block with noisy readings: give the set and the true d at the end."""
     rng = np.random.default_rng(seed)
     theta, d, v_x = rng.uniform(-0.3, 0.3), rng.uniform(-0.015, 0.015), 0.0
     noise = rng.uniform(-bounds.noise, bounds.noise, steps + 1)
-    found = GuaranteedSet(prior, bounds, RADIUS, theta + noise[0])
+    found = GuaranteedSet(prior, bounds, radii, theta + noise[0])
     for k in range(steps):
         v_x = float(np.clip(-0.01 * (theta + noise[k]), -0.004, 0.004))
         theta, d = pushed(slider, theta, d, mu_c, v_x)
@@ -134,7 +172,7 @@ def test_the_truth_is_never_outside_when_it_may_slip(mu_c):
 
 def test_readings_that_no_object_gives_leave_nothing_and_then_the_prior():
     prior = Prior((-0.025, 0.025), HALF, mu_c=(math.inf, math.inf))
-    found = GuaranteedSet(prior, ModelBounds(0.01), RADIUS, 0.0)
+    found = GuaranteedSet(prior, ModelBounds(0.01), (RADIUS, RADIUS), 0.0)
     assert not found.empty
 
     found.push(0.0, 0.005, 0.1)

@@ -18,8 +18,8 @@ import numpy as np
 import pytest
 
 from tactile_push.estimation.hypotheses import (
-    ALPHA,
-    C_SQUARED,
+    LOG_C,
+    SMOOTH,
     THETA,
     UNKNOWNS,
     D,
@@ -35,6 +35,7 @@ RADIUS = 0.0135
 BLOCK = Outline.rectangle(0.05, 0.0475)
 PATH = BLOCK.path(RADIUS)
 HALF = 0.02375
+LOG = math.log(0.0187)
 
 
 def exactly(theta, d, c, mu_c, v_x, v_y, duration):
@@ -53,7 +54,9 @@ def test_a_push_is_that_of_the_mechanics(mu_c):
     for _ in range(40):
         theta, d = rng.uniform(-0.4, 0.4), rng.uniform(-0.02, 0.02)
         c, v_x = rng.uniform(0.005, 0.036), rng.uniform(-0.004, 0.004)
-        found = advance(theta, d, c * c, math.atan(mu_c), HALF, v_x, 0.005, 0.1, RADIUS)
+        found = advance(
+            *(theta, d, c * c, math.atan(mu_c), HALF, RADIUS, 0.0, v_x, 0.005, 0.1), False
+        )
 
         expected = exactly(theta, d, c, mu_c, v_x, 0.005, 0.1)
         assert found[0] == pytest.approx(expected[0], rel=0, abs=5e-5)
@@ -66,28 +69,35 @@ def one(mean, deviations):
 
 def test_mean_and_covariance_are_those_of_many_pushed_objects():
     rng = np.random.default_rng(2)
-    middle = (0.1, 0.006, 0.0187**2, math.atan(0.3), HALF)
-    deviations = (0.01, 0.0005, 2e-5, 0.05, 0.0003)
+    middle = (0.1, 0.006, LOG, math.atan(0.3), HALF, RADIUS, 1.0)
+    deviations = (0.01, 0.0005, 0.03, 0.05, 0.0003, 0.0005, 0.5)
     means, covariances = one(middle, deviations)
 
-    predict(means, covariances, 0.001, 0.005, 0.1, RADIUS, 1e-5, 1e-2, 0.0, 0.0, 0.0)
+    predict(means, covariances, still(), 0.001, 0.005, 0.1, 0.0, 0.0, 0.0, False)
 
     samples = rng.normal(middle, deviations, (4000, UNKNOWNS))
     for row in samples:
-        c, mu_c = math.sqrt(row[C_SQUARED]), math.tan(row[ALPHA])
-        row[[THETA, D]] = advance(*row, 0.001, 0.005, 0.1, RADIUS)
-        assert c > 0.0
-        assert mu_c > 0.0
+        theta, d, log_c, *others = row
+        row[[THETA, D]] = advance(
+            *(theta, d, math.exp(2.0 * log_c), *others, 0.001, 0.005, 0.1), False
+        )[:2]
     scale = samples.std(axis=0)
     assert (means[0] - samples.mean(axis=0)) / scale == pytest.approx(0.0, rel=0, abs=0.06)
     difference = (covariances[0] - np.cov(samples.T)) / np.outer(scale, scale)
     assert difference == pytest.approx(0.0, rel=0, abs=0.08)
 
 
-def test_what_is_known_for_certain_stays_certain():
-    means, covariances = one((0.2, -0.006, 0.0187**2, math.pi / 2.0, HALF), (0.0,) * UNKNOWNS)
+def still():
+    """Nothing is known of the motion before."""
+    return np.full((1, 2), math.nan)
 
-    predict(means, covariances, 0.0, 0.005, 0.1, RADIUS, 1e-5, 1e-2, 0.0, 0.0, 0.0)
+
+def test_what_is_known_for_certain_stays_certain():
+    means, covariances = one(
+        (0.2, -0.006, LOG, math.pi / 2.0, HALF, RADIUS, 0.0), (0.0,) * UNKNOWNS
+    )
+
+    predict(means, covariances, still(), 0.0, 0.005, 0.1, 0.0, 0.0, 0.0, False)
 
     assert covariances == pytest.approx(0.0, rel=0, abs=1e-20)
     assert means[0, :2] == pytest.approx(
@@ -95,24 +105,56 @@ def test_what_is_known_for_certain_stays_certain():
     )
 
 
-def test_scatter_and_drift_add_what_they_say():
-    certain = (0.2, -0.006, 0.0187**2, math.pi / 2.0, HALF)
+def test_scatter_adds_what_it_says():
+    certain = (0.2, -0.006, LOG, math.pi / 2.0, HALF, RADIUS, 0.0)
     means, covariances = one(certain, (0.0,) * UNKNOWNS)
 
-    predict(means, covariances, 0.0, 0.005, 0.1, RADIUS, 1e-5, 1e-2, 0.5, 0.0, 0.01)
+    predict(means, covariances, still(), 0.0, 0.005, 0.1, 0.5, 0.0, 0.01, False)
 
     turn = means[0, THETA] - 0.2
     variance = covariances[0]
     assert math.sqrt(variance[THETA, THETA]) == pytest.approx(abs(turn) / 2.0)
     assert math.sqrt(variance[D, D]) == pytest.approx(RADIUS * abs(turn) / 2.0)
     assert variance[THETA, D] == pytest.approx(-RADIUS * turn**2 / 4.0)
-    assert math.sqrt(variance[C_SQUARED, C_SQUARED]) == pytest.approx(0.01 * (0.0187**2 + HALF**2))
+    assert variance[LOG_C, LOG_C] == 0.0  # in the first push nothing changes
+
+
+def test_drift_grows_with_the_change_of_motion():
+    certain = (0.2, -0.006, LOG, math.pi / 2.0, HALF, RADIUS, 0.0)
+    means, covariances = one(certain, (0.0,) * UNKNOWNS)
+    motions = still()
+    push_once = 0.0, 0.005, 0.1, 0.0, 0.0, 0.01, False
+    predict(means, covariances, motions, *push_once)
+    # The finger goes straight on: the contact, which sticks, leaves along theta from the normal.
+    direction, turning = motions[0]
+    turn = means[0, THETA] - 0.2
+    assert direction == pytest.approx(0.2 + turn / 2.0)
+    assert turning == pytest.approx(turn * HALF / 0.0005)
+
+    motions[0] += 0.3, -0.1
+    predict(means, covariances, motions, *push_once)
+
+    share = 0.0005 / (0.0005 + SMOOTH)
+    assert covariances[0, LOG_C, LOG_C] == pytest.approx(0.01**2 * share * 0.4, rel=0.1)
+
+
+def test_c_grows_with_the_turn_as_it_says():
+    theta, d, c = 0.2, -0.006, 0.0187
+    plain = advance(theta, d, c * c, 0.3, HALF, RADIUS, 0.0, 0.001, 0.005, 0.01, False)
+    omega = (plain[0] - theta) / 0.01
+    grown = c * c * (1.0 + 2.0 * (omega * c) ** 2 / (0.001**2 + 0.005**2))
+
+    found = advance(theta, d, c * c, 0.3, HALF, RADIUS, 2.0, 0.001, 0.005, 0.01, False)
+
+    expected = advance(theta, d, grown, 0.3, HALF, RADIUS, 0.0, 0.001, 0.005, 0.01, False)
+    assert found[0] - theta == pytest.approx(expected[0] - theta, rel=1e-3)
+    assert found[0] != pytest.approx(plain[0], rel=0, abs=1e-6)
 
 
 def test_slip_scatters_by_its_share():
-    means, covariances = one((0.2, -0.006, 0.0187**2, 0.0, HALF), (0.0,) * UNKNOWNS)
+    means, covariances = one((0.2, -0.006, LOG, 0.0, HALF, RADIUS, 0.0), (0.0,) * UNKNOWNS)
 
-    predict(means, covariances, 0.0, 0.005, 0.1, RADIUS, 1e-5, 1e-2, 0.0, 0.5, 0.0)
+    predict(means, covariances, still(), 0.0, 0.005, 0.1, 0.0, 0.5, 0.0, False)
 
     slip = means[0, D] + 0.006 + RADIUS * (means[0, THETA] - 0.2)
     assert abs(slip) > 1e-5
@@ -144,7 +186,9 @@ def test_a_reading_is_weighed_as_bayes_does():
 
 
 def test_an_outlier_moves_nothing():
-    means, covariances = one((0.1, 0.0, 4e-4, 1.0, HALF), (0.003, 0.001, 1e-5, 0.1, 0.0))
+    means, covariances = one(
+        (0.1, 0.0, 4e-4, 1.0, HALF, RADIUS, 0.0), (0.003, 0.001, 1e-5, 0.1, 0.0, 0.0, 0.0)
+    )
     before = means.copy(), covariances.copy()
 
     density = correct(means, covariances, np.zeros(1), 1.0, 1e-5, 0.001)

@@ -1,0 +1,252 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Hypotheses side by side: what they say together."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from tactile_push.estimation import hypotheses
+from tactile_push.estimation.hypotheses import THETA, D
+from tactile_push.estimation.mixture import quantile
+from tactile_push.estimation.prior import NONE, SOME, STICKS, Prior, spread
+from tactile_push.mechanics.compiled import Array
+
+WAY = 1e-3  # a longer push is taken in parts [m]
+EXCLUDED = 0.03  # a kind of friction with that much of the best one's evidence is excluded
+LOWER, UPPER = 0.025, 0.975
+GONE = 16.0  # a hypothesis that is less likely than the best by exp(GONE) is given up
+
+
+@dataclass(frozen=True)
+class Liberties:
+    """How far a real object may be from one with an ellipsoidal limit surface.
+
+    Parameters
+    ----------
+    scatter : float, optional
+        Standard deviation of a push's turn, as a share of it.
+    slip : float, optional
+        Standard deviation of a push's slip, as a share of it.
+    growth : tuple of float, optional
+        Mean and standard deviation of the share by which c^2 grows with (omega c/|v|)^2, as it does
+        under most supports.
+    drift : float, optional
+        Standard deviation of the change of ln(c) while the direction in which the contact moves
+        changes by 1 rad, or the turn per l of way does; it grows with the root of the change.
+
+    Raises
+    ------
+    ValueError
+        If a number is negative or not finite.
+    """
+
+    scatter: float = 0.1
+    slip: float = 0.5
+    growth: tuple[float, float] = (1.5, 1.5)
+    drift: float = 0.05
+
+    def __post_init__(self) -> None:
+        numbers = {'scatter': self.scatter, 'slip': self.slip, 'drift': self.drift}
+        for name, value in (numbers | {'growth': self.growth[1]}).items():
+            if not (math.isfinite(value) and value >= 0.0):
+                raise ValueError(f'{name}: expected a finite number of 0 or more, got {value}')
+
+
+class Bank:
+    """Hypotheses side by side.
+
+    Parameters
+    ----------
+    prior : Prior
+        What is known before.
+    radius : tuple of float
+        Radius of the finger's disk and its standard deviation [m].
+    liberties : Liberties
+        How far the object may be from the model.
+    noise : float
+        Standard deviation of the readings [rad].
+    outlier : float
+        Probability that a reading is wrong altogether.
+    curved : bool
+        Whether the object is a disk about its centre of mass.
+
+    Attributes
+    ----------
+    off : float
+        Share of the hypotheses whose contact has run off the edge.
+    """
+
+    def __init__(
+        self,
+        prior: Prior,
+        radius: tuple[float, float],
+        liberties: Liberties,
+        noise: float,
+        outlier: float,
+        curved: bool,
+    ) -> None:
+        self._prior = prior
+        self._liberties = liberties
+        self._noise = noise
+        self._outlier = outlier
+        self._curved = curved
+        self._first = spread(prior, radius, liberties.growth)
+        self.start(math.nan)
+
+    def start(self, theta: float) -> None:
+        """Begin, or begin anew, at the first reading.
+
+        Parameters
+        ----------
+        theta : float
+            The reading [rad].
+        """
+        self._means, self._covariances, self._kinds, weights = (part.copy() for part in self._first)
+        self._means[:, THETA] = theta
+        self._covariances[:, THETA, THETA] = self._noise**2
+        self._motions = np.full((len(weights), 2), math.nan)
+        self._log_weights = np.log(weights)
+        self._shares = np.maximum(np.bincount(self._kinds, weights, minlength=3), 1e-300)
+        self.off = 0.0
+
+    @property
+    def weights(self) -> Array:
+        """Weights of the hypotheses, whose sum is 1."""
+        return np.exp(self._log_weights)
+
+    def moments(self) -> tuple[Array, Array]:
+        """Give mean and covariance of all unknowns.
+
+        Returns
+        -------
+        mean : ndarray, shape (7,)
+            The mean.
+        covariance : ndarray, shape (7, 7)
+            The covariance.
+        """
+        weights = self.weights
+        mean = weights @ self._means
+        offsets = self._means - mean
+        within = np.tensordot(weights, self._covariances, 1)
+        return mean, within + (offsets.T * weights) @ offsets
+
+    def theta(self) -> tuple[float, float]:
+        """Give mean and variance of theta.
+
+        Returns
+        -------
+        mean, variance : float
+            Mean [rad] and variance [rad^2].
+        """
+        weights, means = self.weights, self._means[:, THETA]
+        mean = float(weights @ means)
+        return mean, float(weights @ (self._covariances[:, THETA, THETA] + (means - mean) ** 2))
+
+    def interval(self, which: int, low: float, high: float) -> tuple[float, float]:
+        """Give the hull of the 95 % intervals under each kind of friction, within bounds.
+
+        Kinds whose evidence is far below the best one's are left out.
+
+        Parameters
+        ----------
+        which : int
+            The unknown.
+        low, high : float
+            The bounds.
+
+        Returns
+        -------
+        lower, upper : float
+            The interval.
+        """
+        weights = self.weights
+        evidence = np.bincount(self._kinds, weights, minlength=3) / self._shares
+        lower, upper = math.inf, -math.inf
+        for kind in (NONE, SOME, STICKS):
+            if evidence[kind] > EXCLUDED * max(evidence):
+                members = self._kinds == kind
+                means = self._means[members, which]
+                variances = self._covariances[members, which, which]
+                lower = min(lower, quantile(weights[members], means, variances, LOWER))
+                upper = max(upper, quantile(weights[members], means, variances, UPPER))
+        return min(max(lower, low), high), max(min(upper, high), low)
+
+    def push(self, v_x: float, v_y: float, duration: float) -> None:
+        """Move the hypotheses on.
+
+        Parameters
+        ----------
+        v_x, v_y : float
+            Velocity of the finger relative to the support [m/s].
+        duration : float
+            How long [s].
+        """
+        way = math.hypot(v_x, v_y) * duration
+        liberties, parts = self._liberties, math.ceil(way / WAY)
+        for _ in range(parts):
+            hypotheses.predict(
+                self._means,
+                self._covariances,
+                self._motions,
+                v_x,
+                v_y,
+                duration / parts,
+                liberties.scatter,
+                liberties.slip,
+                liberties.drift,
+                self._curved,
+            )
+
+    def read(self, theta: float) -> float:
+        """Correct the hypotheses by a reading.
+
+        Parameters
+        ----------
+        theta : float
+            The reading [rad].
+
+        Returns
+        -------
+        float
+            Logarithm of its probability density, and of the contact being still on the edge
+            [1/rad].
+        """
+        density = hypotheses.correct(
+            self._means,
+            self._covariances,
+            self._log_weights,
+            theta,
+            self._noise**2,
+            self._outlier,
+        )
+        return math.log(density) + self._give_up()
+
+    def _give_up(self) -> float:
+        """Drop hypotheses off the edge, and those that are too unlikely: give what that costs."""
+        low, high = self._prior.d
+        deviations = 3.0 * np.sqrt(self._covariances[:, D, D])
+        off = (self._means[:, D] + deviations < low) | (self._means[:, D] - deviations > high)
+        share = float(self.weights[off].sum())
+        self.off += (1.0 - self.off) * share
+        kept = ~off & (self._log_weights > self._log_weights.max() - GONE)
+        if not kept.all() and kept.any():
+            self._means = self._means[kept]
+            self._covariances = self._covariances[kept]
+            self._motions = self._motions[kept]
+            self._kinds = self._kinds[kept]
+            self._log_weights = self._log_weights[kept]
+            self._log_weights -= np.log(np.exp(self._log_weights).sum())
+        return math.log(max(1.0 - share, self._outlier))

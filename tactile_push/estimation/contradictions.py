@@ -1,0 +1,250 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""When readings contradict the model, and why.
+
+Three explanations that need no object compete with the model: the edge stands still, it turns just
+anyhow, or each reading is anywhere. A cumulative sum per explanation (Page's test) adds up by how
+much the logarithm of its probability density is above the model's, and starts again whenever it
+falls below 0, so it is about the last readings however long the push has been. As long as the
+model is right, a sum rises above h less than once in exp(h) readings. Sums leak, so that a tiny
+advantage over very long times says nothing.
+"""
+
+import math
+from collections import deque
+from itertools import pairwise
+
+CERTAIN = 12.0  # an explanation that is exp(CERTAIN) times likelier contradicts the model
+JUMPY = 15.0  # the same of readings that are anywhere: three outliers in a row
+LEAK = 0.01  # of a sum, per reading
+MEMORY = 20  # readings over which surprise is averaged
+SURPRISE = 4.0  # mean of squared normalised errors, 1 on average, that contradicts the model
+FARTHEST = 25.0  # what one reading can add to the surprise
+OFF = 0.95  # share of the hypotheses off the edge that contradicts the model
+NEAR = 6.0  # standard deviations within which readings are the same
+CHANGE = 1.0  # way in which the rate of an edge that turns anyhow becomes another, in l
+AGAIN = 2  # readings outside `NEAR` in a row that show that an edge turns again
+SHORTEST, LONGEST = 40, 200  # readings that have to agree after a contradiction
+
+ANYWHERE = 'the readings jump about: is the sensor disturbed?'
+JUMPED = 'the edge jumped and stayed there: another object, or another edge?'
+STILL = 'the edge does not turn although the object would if it were pushed: does the belt run?'
+LEFT = 'the contact has run off the end of the edge'
+OTHERWISE = 'the edge turns otherwise than that of any object of this outline: is it another one?'
+NOISY = 'the readings scatter far more than the stated noise'
+IMPOSSIBLE = 'no object within the bounds on l, r, c, mu_c and noise turns like this'
+CONTRADICTIONS = ('', ANYWHERE, JUMPED, STILL, LEFT, OTHERWISE, NOISY, IMPOSSIBLE)
+
+
+class _Line:
+    """An edge that turns at a rate which wanders: Kalman filter of theta and the rate."""
+
+    def __init__(self, noise: float, outlier: float, rate: float, change: float) -> None:
+        self._noise = noise**2
+        self._outlier = outlier
+        self._rate = rate**2  # variance of the rate at first [rad^2/m^2]
+        self._change = change**2  # growth of it with the way [rad^2/m^3]
+        self.sum = 0.0
+
+    def start(self, theta: float) -> None:
+        self.sum = 0.0
+        self._theta, self._slope = theta, 0.0
+        self._tt, self._ts, self._ss = self._noise, 0.0, self._rate
+
+    def read(self, theta: float, way: float, log_density: float) -> None:
+        """Move on by a way, take the reading and compare with the model."""
+        self._theta += way * self._slope
+        grown = self._change * way
+        self._tt += way * (2.0 * self._ts + way * (self._ss + grown / 3.0))
+        self._ts += way * (self._ss + grown / 2.0)
+        self._ss += grown
+        spread, error = self._tt + self._noise, theta - self._theta
+        likely = (1.0 - self._outlier) * math.exp(-error * error / (2.0 * spread))
+        likely /= math.sqrt(2.0 * math.pi * spread)
+        anywhere = self._outlier / math.pi
+        self.sum += math.log(likely + anywhere) - log_density - LEAK * self.sum
+        if self.sum <= 0.0:
+            self.start(theta)
+        elif likely > anywhere:
+            self._theta += self._tt / spread * error
+            self._slope += self._ts / spread * error
+            self._ss -= self._ts * self._ts / spread
+            self._ts *= self._noise / spread
+            self._tt *= self._noise / spread
+
+
+class Watch:
+    """Says why the readings of one push contradict the model.
+
+    Parameters
+    ----------
+    noise : float
+        Standard deviation of the readings [rad].
+    outlier : float
+        Probability that a reading is wrong altogether.
+    l : float
+        Distance from the edge to the centre of mass [m], which sets how fast objects turn.
+    theta : float
+        The first reading [rad].
+
+    Attributes
+    ----------
+    outlier : float
+        A reading whose log density is no greater is rather an outlier than not.
+    surprise : float
+        Mean square of the last readings' errors in units of what was expected, 1 on average.
+    reason : str
+        Why no number is to be believed; empty if model and readings agree. It stays.
+    """
+
+    def __init__(self, noise: float, outlier: float, l: float, theta: float) -> None:
+        self._noise = noise
+        # No object turns by more than 1/(2 l) a metre, eq. (11).
+        self._fastest = 0.5 / l
+        change = self._fastest / math.sqrt(CHANGE * l)
+        self._still = _Line(noise, outlier, 0.0, 0.0)
+        self._turning = _Line(noise, outlier, self._fastest, change)
+        self._anywhere = 0.0
+        self.outlier = math.log(2.0 * outlier / math.pi)
+        self._since = deque([theta], MEMORY)  # readings from the last one that was believed
+        self._gone = 0.0  # how far the finger has pushed since [m]
+        self._still.start(theta)
+        self._turning.start(theta)
+        self.surprise = 1.0
+        self.reason = ''
+
+    def read(self, theta: float, way: float, error: float, log_density: float, off: float) -> None:
+        """Compare a reading with what the model says.
+
+        Parameters
+        ----------
+        theta : float
+            The reading [rad].
+        way : float
+            How far the finger has pushed since the last one [m].
+        error : float
+            By how much the reading differs from the expected one, in standard deviations.
+        log_density : float
+            Logarithm of the probability density that the model gave to the reading [1/rad].
+        off : float
+            Share of the hypotheses whose contact has run off the edge.
+        """
+        self._since.append(theta)
+        self._gone += way
+        if log_density > self.outlier:
+            self._since = deque([theta], MEMORY)
+            self._gone = 0.0
+            self.surprise += (min(error**2, FARTHEST) - self.surprise) / MEMORY
+        self._still.read(theta, way, log_density)
+        self._turning.read(theta, way, log_density)
+        self._anywhere -= math.log(math.pi) + log_density + LEAK * self._anywhere
+        self._anywhere = max(0.0, self._anywhere)
+        if not self.reason:
+            self.reason = self._why(off)
+
+    def _why(self, off: float) -> str:
+        """Say what contradicts the model now."""
+        still, turning, anywhere = self._still.sum, self._turning.sum, self._anywhere
+        most = max(still, turning, anywhere)
+        certain = max(still, turning) > CERTAIN or anywhere > JUMPY
+        if off > OFF or (certain and off > 0.5):
+            return LEFT
+        if certain:
+            jumps = self._jumps()
+            if jumps > 1 or anywhere == most:
+                return ANYWHERE
+            if jumps == 1:
+                return JUMPED
+            # An edge that turns anyhow may stand still, too.
+            return STILL if still > turning - 1.0 else OTHERWISE
+        return NOISY if self.surprise > SURPRISE else ''
+
+    def _jumps(self) -> int:
+        """Count the jumps since a reading was believed."""
+        readings = list(self._since)
+        way = self._gone / max(len(readings) - 1, 1)
+        # Another object may turn faster, if it is smaller.
+        farthest = NEAR * self._noise + 2.0 * self._fastest * way
+        return sum(abs(after - before) > farthest for before, after in pairwise(readings))
+
+
+class Probation:
+    """Tells when an estimator that began anew after a contradiction is to be believed.
+
+    As many readings in a row have to agree as there were before the contradiction, between 40 and
+    200: a model that is wrong for good would need no more to be contradicted again. After an edge
+    that did not turn nothing is said before it turns again: a belt that stands looks like
+    an object that translates.
+
+    Parameters
+    ----------
+    noise : float
+        Standard deviation of the readings [rad].
+
+    Attributes
+    ----------
+    reason : str
+        The contradiction; empty if the estimator is to be believed.
+    """
+
+    def __init__(self, noise: float) -> None:
+        self._noise = noise
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget everything."""
+        self.reason = ''
+        self._readings = 0
+        self._needed = 0
+        self._stood: float | None = None
+        self._outside = 0
+
+    def contradicted(self, reason: str, theta: float) -> None:
+        """Take a contradiction.
+
+        Parameters
+        ----------
+        reason : str
+            What contradicts the model.
+        theta : float
+            The last reading [rad].
+        """
+        self._needed = min(max(self._readings, SHORTEST), LONGEST)
+        self._readings = self._outside = 0
+        self._stood = theta if reason == STILL else None
+        self.reason = reason
+
+    def agreed(self, theta: float) -> bool:
+        """Take a reading that agrees with the model.
+
+        Parameters
+        ----------
+        theta : float
+            The reading [rad].
+
+        Returns
+        -------
+        bool
+            Whether the estimator is to begin anew even so, because the edge still stands.
+        """
+        if self._stood is not None:
+            near = abs(theta - self._stood) < NEAR * self._noise
+            self._outside = 0 if near else self._outside + 1
+            if self._outside < AGAIN:
+                return True
+            self._stood = None
+        self._readings += 1
+        if self._readings >= self._needed:
+            self.reason = ''
+        return False

@@ -1,0 +1,138 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Where a disk is that is pushed."""
+
+import math
+
+import numpy as np
+
+from tactile_push.estimation.contact_estimator import ContactEstimator
+from tactile_push.estimation.contenders import Contenders
+from tactile_push.estimation.object_estimator import ObjectEstimate
+from tactile_push.estimation.pose import object_pose
+from tactile_push.estimation.prior import Prior
+
+ANY_ANGLE = (2.0 * math.pi) ** 2 / 12.0  # variance of the disk's angle, which nothing shows [rad^2]
+
+
+class DiskEstimator:
+    """Follows the contact with a disk about its centre of mass.
+
+    The tangent at the contact is the edge, so d is 0. theta tells where the disk is; how theta
+    changes tells of c and mu_c.
+
+    Parameters
+    ----------
+    disk_radius : float
+        Radius of the disk that is pushed [m].
+    noise : float
+        Standard deviation of the readings of theta [rad], positive.
+    c : tuple of float, optional
+        Least and most c [m].
+    mu_c : tuple of float, optional
+        Least and most friction between finger and object, 0 to infinity.
+    l_share : float, optional
+        Standard deviation of the disk's radius, as a share of it.
+    radius : float, optional
+        Effective radius of the finger's disk [m].
+    radius_share : float, optional
+        Its standard deviation, as a share of it.
+    outlier : float, optional
+        Probability that a reading is wrong altogether.
+
+    Raises
+    ------
+    ValueError
+        If a number is out of its range.
+    """
+
+    def __init__(
+        self,
+        disk_radius: float,
+        noise: float,
+        *,
+        c: tuple[float, float] = (0.005, 0.036),
+        mu_c: tuple[float, float] = (0.0, math.inf),
+        l_share: float = 0.075,
+        radius: float = 0.0135,
+        radius_share: float = 0.075,
+        outlier: float = 0.001,
+    ) -> None:
+        estimator = ContactEstimator(
+            Prior((0.0, 0.0), disk_radius, l_share * disk_radius, c, mu_c),
+            noise,
+            radius=radius,
+            radius_sigma=radius_share * radius,
+            outlier=outlier,
+            disk=True,
+        )
+        self._contenders = Contenders([estimator], np.ones(1), noise)
+
+    def reset(self) -> None:
+        """Forget everything, as when the finger has lost the object."""
+        self._contenders.reset()
+
+    def push(self, theta: float, v_x: float, v_y: float, duration: float) -> ObjectEstimate:
+        """Take a push and the reading at its end.
+
+        Parameters
+        ----------
+        theta : float
+            Reading of the tangent's angle [rad]; NaN without one.
+        v_x, v_y : float
+            Mean velocity of the finger relative to the support since the last call [m/s].
+        duration : float
+            Time since the last call [s]; 0 for a reading without a push, as the first one is.
+
+        Returns
+        -------
+        ObjectEstimate
+            What is known now, without edges.
+
+        Raises
+        ------
+        ValueError
+            If a velocity is not finite, or the duration negative or not finite.
+        """
+        self._contenders.push(theta, v_x, v_y, duration)
+        return self.estimate()
+
+    def estimate(self) -> ObjectEstimate:
+        """Tell what is known.
+
+        Returns
+        -------
+        ObjectEstimate
+            The estimate; before any data and after a contradiction, what was known before.
+        """
+        (estimate,) = self._contenders.estimates
+        pose, covariance = object_pose(estimate)
+        # How the disk has turned since it was put down shows nowhere.
+        pose[2] = 0.0
+        covariance[2, :] = covariance[:, 2] = 0.0
+        covariance[2, 2] = ANY_ANGLE
+        return ObjectEstimate(
+            (),
+            np.zeros(0),
+            (),
+            -1,
+            estimate.d,
+            estimate.c,
+            estimate.mu_c,
+            estimate.theta,
+            estimate.surprise,
+            self._contenders.contradiction,
+            pose,
+            covariance,
+        )

@@ -1,0 +1,130 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""The straight edges of an outline, one of which is pushed."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from tactile_push.mechanics import Outline
+from tactile_push.mechanics.compiled import Array
+from tactile_push.mechanics.contact import LENGTH, TAU, D, L
+
+ANY_RADIUS = 1.0  # of the finger's disk [m]: where its path is straight does not depend on it
+
+
+@dataclass(frozen=True)
+class Edge:
+    """A straight edge that may be pushed.
+
+    Parameters
+    ----------
+    number : int
+        From 0: from vertex `number` to the next one, counterclockwise.
+    d : tuple of float
+        Its ends, least and most d [m].
+    l : float
+        Distance from the edge to the centre of mass [m].
+    angle : float
+        Its direction in the object's frame [rad]: the object's angle is theta less this one.
+    slenderness : float, optional
+        Ratio of the principal second moments of the object's area, 1 or more: the more slender, the
+        more its resistance to turning depends on the direction in which it is pushed.
+    """
+
+    number: int
+    d: tuple[float, float]
+    l: float
+    angle: float
+    slenderness: float = 1.0
+
+    @property
+    def length(self) -> float:
+        """Its length [m]."""
+        return self.d[1] - self.d[0]
+
+    def same_place(self, other: 'Edge', slack: float) -> bool:
+        """Tell whether another edge lies the same way to the centre of mass.
+
+        Parameters
+        ----------
+        other : Edge
+            The other edge; its direction does not matter.
+        slack : float
+            By how much a length may differ [m].
+
+        Returns
+        -------
+        bool
+            Whether no reading of theta can tell them apart.
+        """
+        pairs = zip((*self.d, self.l), (*other.d, other.l), strict=True)
+        return all(abs(one - two) <= slack for one, two in pairs)
+
+
+def edges_of(vertices: npt.ArrayLike) -> tuple[Edge, ...]:
+    """Give the edges of a convex polygon.
+
+    Parameters
+    ----------
+    vertices : array_like, shape (N, 2)
+        Its corners about the centre of mass [m], counterclockwise, none on a straight line between
+        its neighbours.
+
+    Returns
+    -------
+    tuple of Edge
+        The edges, as many as corners.
+
+    Raises
+    ------
+    ValueError
+        If they are no such corners, or the centre of mass is not inside.
+    """
+    outline = Outline.polygon(vertices)
+    corners = np.asarray(vertices, dtype=float)
+    kept = outline.pieces[::2, :2]  # an edge and a corner by turns
+    if len(kept) != len(corners) or not np.array_equal(kept, corners):
+        raise ValueError(
+            'vertices: expected corners in counterclockwise order, none between two others on a '
+            f'straight line, got {corners.tolist()}'
+        )
+    rows = outline.path(ANY_RADIUS)[:-1:2]
+    if not (rows[:, L] > 0.0).all():
+        raise ValueError(
+            f'vertices: expected a polygon about its centre of mass, (0, 0), got {corners.tolist()}'
+        )
+    slenderness = _slenderness(corners)
+    return tuple(
+        Edge(
+            number,
+            (float(row[D]), float(row[D] + row[LENGTH])),
+            float(row[L]),
+            float(row[TAU]),
+            slenderness,
+        )
+        for number, row in enumerate(rows)
+    )
+
+
+def _slenderness(corners: Array) -> float:
+    """Give the ratio of the principal second moments, from triangles about the centre of mass."""
+    following = np.roll(corners, -1, axis=0)
+    areas = corners[:, 0] * following[:, 1] - corners[:, 1] * following[:, 0]
+    moments = sum(
+        (points.T * areas) @ points for points in (corners, following, corners + following)
+    )
+    least, most = np.linalg.eigvalsh(moments)
+    return float(most / least)

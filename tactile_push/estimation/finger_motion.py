@@ -1,0 +1,102 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""How the finger moves between two moments, from its commands."""
+
+import math
+from collections import deque
+
+
+class FingerMotion:
+    """Follows a finger that answers its commands after a pure delay with a lag of first order.
+
+    Parameters
+    ----------
+    lag : float, optional
+        Time constant of the answer [s]; 0 for a finger that follows at once.
+    delay : float, optional
+        Time before a command has any effect [s].
+
+    Raises
+    ------
+    ValueError
+        If a time is negative or not finite.
+    """
+
+    def __init__(self, lag: float = 0.0, delay: float = 0.0) -> None:
+        for name, value in (('lag', lag), ('delay', delay)):
+            if not (math.isfinite(value) and value >= 0.0):
+                raise ValueError(f'{name}: expected a time of 0 or more [s], got {value}')
+        self.lag = lag
+        self.delay = delay
+        self.reset(-math.inf)
+
+    def reset(self, time: float, velocity: float = 0.0) -> None:
+        """Start anew.
+
+        Parameters
+        ----------
+        time : float
+            When that is [s].
+        velocity : float, optional
+            Velocity that the finger has and goes on with until a command [m/s].
+        """
+        self._time = time  # up to which it has been followed
+        self._velocity = self._wanted = velocity
+        self._commands: deque[tuple[float, float]] = deque()
+
+    def command(self, time: float, velocity: float) -> None:
+        """Take a command.
+
+        Parameters
+        ----------
+        time : float
+            When it was given [s], not before the one before it.
+        velocity : float
+            Velocity from then on [m/s].
+        """
+        self._commands.append((time + self.delay, velocity))
+
+    def way(self, time: float) -> float:
+        """Give how far the finger moves from where it was last asked for to a later moment.
+
+        Parameters
+        ----------
+        time : float
+            The moment [s], not before the last one.
+
+        Returns
+        -------
+        float
+            The way [m].
+        """
+        way = 0.0
+        while self._commands and self._commands[0][0] <= time:
+            begin, velocity = self._commands.popleft()
+            way += self._follow(begin)
+            self._wanted = velocity
+        return way + self._follow(time)
+
+    def _follow(self, time: float) -> float:
+        """Go on with the wanted velocity."""
+        duration = time - self._time
+        if not duration > 0.0:
+            return 0.0
+        self._time = time
+        behind = self._velocity - self._wanted
+        if self.lag > 0.0:
+            decay = math.exp(-duration / self.lag)
+            self._velocity = self._wanted + behind * decay
+            return self._wanted * duration + behind * self.lag * (1.0 - decay)
+        self._velocity = self._wanted
+        return self._wanted * duration

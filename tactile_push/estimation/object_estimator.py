@@ -1,0 +1,266 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Where an object is of which the outline is known, but not the edge that is pushed."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import compress
+
+import numpy as np
+
+from tactile_push.estimation.bank import Liberties
+from tactile_push.estimation.contact_estimator import (
+    NOISE_BOUND,
+    ContactEstimator,
+    Estimate,
+    Quantity,
+)
+from tactile_push.estimation.contenders import Contenders
+from tactile_push.estimation.edges import Edge
+from tactile_push.estimation.guaranteed import ModelBounds
+from tactile_push.estimation.pose import object_pose
+from tactile_push.estimation.prior import Prior
+from tactile_push.mechanics.compiled import Array
+
+ROUNDING = 1e-6  # of lengths and weights, in units of themselves
+ANISOTROPY = 0.4  # drift of ln(c) by the logarithm of the slenderness
+EXCLUDED = 0.01  # an edge with that much of the best one's weight is no part of the intervals
+
+
+@dataclass(frozen=True, eq=False)
+class ObjectEstimate:
+    """What is known of the object at the last reading.
+
+    Parameters
+    ----------
+    edges : tuple of Edge
+        The edges that may be pushed; none of a disk.
+    weights : ndarray, shape (N,)
+        Probability of each one.
+    estimates : tuple of Estimate
+        What is known if it is this one.
+    edge : int
+        Index of the most likely one; -1 of a disk.
+    d, c, mu_c : Quantity
+        Contact along the edge [m], m_max / f_max [m] and friction between finger and object: the
+        mean under the most likely edge, the hull of the 95 % intervals of all edges that are not
+        unlikely, and the hull of the guaranteed bounds of all edges that are not excluded.
+    theta : float
+        Angle of the pushed edge [rad]; NaN before the first reading.
+    surprise : float
+        Mean square of the last readings' errors in units of what was expected, 1 on average.
+    contradiction : str
+        Why no number is to be believed, one of `CONTRADICTIONS`; empty if an edge agrees with the
+        readings. All else is what was known before any data then.
+    pose : ndarray, shape (3,)
+        Centre of mass x, y [m] and angle of the object [rad] in the frame of the finger's disk,
+        under the most likely edge; NaN before the first reading.
+    covariance : ndarray, shape (3, 3)
+        Mean products of deviations from `pose`, with those of other edges that may be pushed.
+    """
+
+    edges: tuple[Edge, ...]
+    weights: Array
+    estimates: tuple[Estimate, ...]
+    edge: int
+    d: Quantity
+    c: Quantity
+    mu_c: Quantity
+    theta: float
+    surprise: float
+    contradiction: str
+    pose: Array
+    covariance: Array
+
+
+class ObjectEstimator:
+    """Follows the contact under every edge that may be pushed, and weighs the edges.
+
+    Before any data the finger is as likely anywhere on the outline. Edges that lie the same way to
+    the centre of mass, as opposite edges of a rectangle, turn alike and share their estimate: no
+    reading of theta tells them apart.
+
+    Parameters
+    ----------
+    edges : sequence of Edge
+        The edges that may be pushed, one if it is known.
+    noise : float
+        Standard deviation of the readings of theta [rad], positive.
+    c : tuple of float, optional
+        Least and most c [m].
+    mu_c : tuple of float, optional
+        Least and most friction between finger and object, 0 to infinity.
+    l_share : float, optional
+        Standard deviation of each edge's l, as a share of it: 0.075 covers errors of a tenth of l
+        and r.
+    radius : float, optional
+        Effective radius of the finger's disk [m].
+    radius_share : float, optional
+        Its standard deviation, as a share of it.
+    outlier : float, optional
+        Probability that a reading is wrong altogether.
+
+    Raises
+    ------
+    ValueError
+        If there is no edge, or a number is out of its range.
+    """
+
+    def __init__(
+        self,
+        edges: Sequence[Edge],
+        noise: float,
+        *,
+        c: tuple[float, float] = (0.005, 0.036),
+        mu_c: tuple[float, float] = (0.0, math.inf),
+        l_share: float = 0.075,
+        radius: float = 0.0135,
+        radius_share: float = 0.075,
+        outlier: float = 0.001,
+    ) -> None:
+        if not edges:
+            raise ValueError('edges: expected one or more')
+        self.edges = tuple(edges)
+        places: list[Edge] = []
+        place_of: list[int] = []
+        for edge in self.edges:
+            slack = ROUNDING * edge.length
+            alike = [i for i, place in enumerate(places) if edge.same_place(place, slack)]
+            place_of.append(alike[0] if alike else len(places))
+            if not alike:
+                places.append(edge)
+        lengths = np.array([edge.length for edge in self.edges])
+        together = np.bincount(place_of, lengths)
+        self._place_of = place_of
+        self._shares = lengths / together[place_of]
+        self._contenders = Contenders(
+            [
+                ContactEstimator(
+                    Prior(place.d, place.l, l_share * place.l, c, mu_c),
+                    noise,
+                    radius=radius,
+                    radius_sigma=radius_share * radius,
+                    outlier=outlier,
+                    liberties=_liberties(place.slenderness),
+                    bounds=_bounds(place.slenderness, noise),
+                )
+                for place in places
+            ],
+            together / together.sum(),
+            noise,
+        )
+
+    def reset(self) -> None:
+        """Forget everything, as when the finger has lost the object."""
+        self._contenders.reset()
+
+    def push(self, theta: float, v_x: float, v_y: float, duration: float) -> ObjectEstimate:
+        """Take a push and the reading at its end.
+
+        Parameters
+        ----------
+        theta : float
+            Reading of the edge's angle [rad]; NaN without one.
+        v_x, v_y : float
+            Mean velocity of the finger relative to the support since the last call [m/s].
+        duration : float
+            Time since the last call [s]; 0 for a reading without a push, as the first one is.
+
+        Returns
+        -------
+        ObjectEstimate
+            What is known now.
+
+        Raises
+        ------
+        ValueError
+            If a velocity is not finite, or the duration negative or not finite.
+        """
+        self._contenders.push(theta, v_x, v_y, duration)
+        return self.estimate()
+
+    def estimate(self) -> ObjectEstimate:
+        """Tell what is known.
+
+        Returns
+        -------
+        ObjectEstimate
+            The estimate; before any data and after a contradiction, what was known before.
+        """
+        found, possible = self._contenders.estimates, self._contenders.possible
+        estimates = tuple(found[i] for i in self._place_of)
+        weights = self._contenders.weights[self._place_of] * self._shares
+        # Of equally likely edges the first, whatever rounding says.
+        best = int(np.argmax(weights > (1.0 - ROUNDING) * weights.max()))
+        likely = weights > EXCLUDED * weights.max()
+        bounded = [possible[i] for i in self._place_of]
+        d, c, mu_c = (
+            Quantity(
+                getattr(estimates[best], name).mean,
+                min(getattr(one, name).lower for one in compress(estimates, likely)),
+                max(getattr(one, name).upper for one in compress(estimates, likely)),
+                min(getattr(one, name).least for one in compress(estimates, bounded)),
+                max(getattr(one, name).most for one in compress(estimates, bounded)),
+            )
+            for name in ('d', 'c', 'mu_c')
+        )
+        pose, covariance = self._pose(estimates, weights, best)
+        return ObjectEstimate(
+            self.edges,
+            weights,
+            estimates,
+            best,
+            d,
+            c,
+            mu_c,
+            estimates[best].theta,
+            estimates[best].surprise,
+            self._contenders.contradiction,
+            pose,
+            covariance,
+        )
+
+    def _pose(
+        self, estimates: tuple[Estimate, ...], weights: Array, best: int
+    ) -> tuple[Array, Array]:
+        """Give the pose under the best edge and all edges' deviations from it."""
+        poses, covariance = [], np.zeros((3, 3))
+        for edge, weight, estimate in zip(self.edges, weights, estimates, strict=True):
+            pose, own = object_pose(estimate)
+            pose[2] = math.remainder(pose[2] - edge.angle, math.tau)
+            poses.append(pose)
+            covariance += weight * own
+        for weight, pose in zip(weights, poses, strict=True):
+            offset = pose - poses[best]
+            offset[2] = math.remainder(offset[2], math.tau)
+            covariance += weight * np.outer(offset, offset)
+        return poses[best], covariance
+
+
+def _liberties(slenderness: float) -> Liberties:
+    """Give the liberties for an object that resists turning by how it is pushed.
+
+    While it hardly turns, its c^2 is the second moment of the load along the direction of motion,
+    which lies between the principal ones.
+    """
+    liberties = Liberties()
+    return replace(liberties, drift=math.hypot(liberties.drift, ANISOTROPY * math.log(slenderness)))
+
+
+def _bounds(slenderness: float, noise: float) -> ModelBounds:
+    """Give the bounds for the same: the ratio of most and least turn grows by its root."""
+    bounds = ModelBounds(NOISE_BOUND * noise)
+    turn = math.tanh(math.atanh(bounds.turn) + math.log(slenderness) / 4.0)
+    return replace(bounds, turn=turn)

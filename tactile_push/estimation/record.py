@@ -1,0 +1,74 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""What active sensing tells after one control period, as numbers with names."""
+
+import math
+
+from tactile_push.estimation.active_sensing import ActiveSensing
+from tactile_push.estimation.contradictions import CONTRADICTIONS
+from tactile_push.estimation.object_estimator import ObjectEstimate
+
+
+def sensing_values(estimate: ObjectEstimate, sensing: ActiveSensing) -> dict[str, float]:
+    """Give all that is known after one control period.
+
+    Parameters
+    ----------
+    estimate : ObjectEstimate
+        What is known of the object.
+    sensing : ActiveSensing
+        Who found it out.
+
+    Returns
+    -------
+    dict of str to float
+        The numbers by name, SI units. The middle of what nothing is known of is NaN; the bounds
+        are those from before any data then.
+    """
+    known = sensing.readings > 0 and not estimate.contradiction
+    values = {}
+    for name in ('d', 'c', 'mu_c'):
+        quantity = getattr(estimate, name)
+        values[name] = quantity.mean if known else math.nan
+        values[f'{name}_lower'], values[f'{name}_upper'] = quantity.lower, quantity.upper
+        values[f'{name}_least'], values[f'{name}_most'] = quantity.least, quantity.most
+    edge = estimate.edges[estimate.edge] if estimate.edges else None
+    return {
+        **values,
+        'theta': estimate.theta,
+        'edge': math.nan if edge is None else float(edge.number),
+        'edge_weight': math.nan if edge is None else float(estimate.weights[estimate.edge]),
+        'surprise': estimate.surprise,
+        'contradiction': float(CONTRADICTIONS.index(estimate.contradiction)),
+        'readings': float(sensing.readings),
+        'age': sensing.age,
+    }
+
+
+def tells_pose(estimate: ObjectEstimate, sensing: ActiveSensing) -> bool:
+    """Tell whether a control period has a new pose of the object to tell.
+
+    Parameters
+    ----------
+    estimate : ObjectEstimate
+        What is known of the object.
+    sensing : ActiveSensing
+        Who found it out.
+
+    Returns
+    -------
+    bool
+        Whether there was a reading and it agreed with the object.
+    """
+    return sensing.took and not estimate.contradiction

@@ -1,0 +1,196 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""From ticks to pushes: what is fed when, and when all is forgotten."""
+
+import math
+from dataclasses import dataclass, field
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tactile_push.estimation import (
+    ActiveSensing,
+    DiskEstimator,
+    FingerMotion,
+    ObjectEstimator,
+    edges_of,
+    sensing_values,
+)
+
+BELT = 0.005
+PERIOD = 0.1
+
+
+@dataclass
+class Listener:
+    """An estimator that only listens."""
+
+    pushes: list[tuple[float, float, float, float]] = field(default_factory=list)
+    resets: int = 0
+
+    def push(self, theta, v_x, v_y, duration):
+        self.pushes.append((theta, v_x, v_y, duration))
+
+    def estimate(self):
+        return None
+
+    def reset(self):
+        self.resets += 1
+        self.pushes.clear()
+
+
+@pytest.fixture
+def listener() -> Listener:
+    return Listener()
+
+
+@pytest.fixture
+def sensing(listener) -> ActiveSensing:
+    return ActiveSensing(listener, FingerMotion(), BELT, 0.3)
+
+
+def test_push_is_the_motion_between_two_readings(sensing, listener):
+    # Readings 20 ms and 70 ms old: the finger went on with the first command for 30 of 50 ms.
+    sensing.tick(1.0, 0.30, 0.02, 0.001)
+    sensing.tick(1.1, 0.31, 0.07, 0.004)
+    sensing.tick(1.2, 0.32, 0.00, 0.002)
+    assert listener.pushes == [
+        pytest.approx((0.30, 0.0, BELT, 0.0)),
+        pytest.approx((0.31, 0.001 * 0.03 / 0.05, BELT, 0.05)),
+        pytest.approx((0.32, (0.001 * 0.07 + 0.004 * 0.10) / 0.17, BELT, 0.17)),
+    ]
+    assert sensing.readings == 3
+
+
+def test_reading_that_comes_again_is_no_reading(sensing, listener):
+    sensing.tick(1.0, 0.30, 0.0, 0.001)
+    sensing.tick(1.1, 0.30, 0.1, 0.002)
+    sensing.tick(1.2, 0.30, 0.2, 0.003)
+    assert sensing.readings == 1
+    sensing.tick(1.3, 0.31, 0.0, 0.004)
+    assert listener.pushes[1] == pytest.approx((0.31, 0.002, BELT, 0.3))
+
+
+def test_it_tells_which_tick_brought_a_reading(sensing):
+    told = []
+    for tick in ((1.0, 0.3, 0.0), (1.1, 0.3, 0.1), (1.2, 0.31, 0.0), (1.3, math.nan, 0.1)):
+        sensing.tick(*tick, 0.001)
+        told.append(sensing.took)
+    assert told == [True, False, True, False]
+
+
+def test_older_reading_is_no_reading(sensing, listener):
+    sensing.tick(1.0, 0.30, 0.0, 0.001)
+    sensing.tick(1.1, 0.29, 0.2, 0.001)
+    assert sensing.readings == len(listener.pushes) == 1
+
+
+@pytest.mark.parametrize(
+    ('tick', 'reason'),
+    [
+        ((1.2, math.nan, 0.0, 0.0), 'contact lost'),
+        ((1.2, 0.3, 0.35, 0.0), 'contact lost'),
+        ((1.2, 0.3, -0.1, 0.0), 'contact lost'),
+        ((1.2, 0.3, -math.inf, 0.0), 'contact lost'),
+        ((1.2, 0.3, math.nan, 0.0), 'contact lost'),
+        ((1.45, 0.3, 0.0, 0.0), 'ticks missing'),
+        ((1.05, 0.3, 0.0, 0.0), 'time went back'),
+    ],
+)
+def test_what_is_no_push_any_more_is_forgotten(sensing, listener, tick, reason):
+    sensing.tick(1.0, 0.30, 0.0, 0.001)
+    sensing.tick(1.1, 0.31, 0.0, 0.001)
+    assert not sensing.forgot
+    sensing.tick(*tick)
+    assert sensing.forgot == reason
+    assert listener.resets == 1
+
+
+def test_finger_that_somebody_else_moved_is_forgotten(sensing, listener):
+    sensing.tick(1.0, 0.30, 0.0, 0.001)
+    sensing.tick(1.1, 0.31, 0.0, math.nan)
+    sensing.tick(1.2, 0.32, 0.0, 0.001)
+    assert sensing.forgot == 'the finger moved unknown to the controller'
+    assert sensing.readings == 1
+    assert listener.pushes[-1][3] == 0.0  # a beginning
+
+
+@pytest.mark.parametrize('v_x', [math.inf, -math.inf, 1e308])
+def test_velocity_that_no_finger_has_is_none(sensing, listener, v_x):
+    sensing.tick(1.0, 0.30, 0.0, 0.001)
+    sensing.tick(1.1, 0.31, 0.0, v_x)
+    sensing.tick(1.2, 0.32, 0.0, 0.001)
+    assert sensing.forgot == 'the finger moved unknown to the controller'
+    assert all(abs(push[1]) < 0.1 for push in listener.pushes)
+
+
+@pytest.mark.parametrize('theta', [math.inf, 1e308, 1.6, -1.6])
+def test_angle_that_no_pushed_edge_has_is_no_reading(sensing, listener, theta):
+    sensing.tick(1.0, theta, 0.0, 0.001)
+    assert not listener.pushes
+    sensing.tick(1.1, 0.3, 0.0, 0.001)
+    sensing.tick(1.2, theta, 0.0, 0.001)
+    assert sensing.forgot == 'contact lost'
+
+
+def test_nothing_begins_while_the_finger_is_not_commanded(sensing, listener):
+    sensing.tick(1.0, 0.30, 0.0, math.nan)
+    assert sensing.readings == 0
+    assert not listener.pushes
+    assert not sensing.forgot
+
+
+def test_it_begins_again_with_the_velocity_that_the_finger_has(sensing, listener):
+    sensing.tick(1.0, 0.30, 0.0, 0.001)
+    sensing.tick(1.1, math.nan, 0.0, 0.004)
+    sensing.tick(1.2, 0.31, 0.05, 0.002)
+    sensing.tick(1.3, 0.32, 0.0, 0.002)
+    assert listener.pushes[-1] == pytest.approx(
+        (0.32, (0.004 * 0.05 + 0.002 * 0.1) / 0.15, BELT, 0.15)
+    )
+
+
+def test_finger_that_lags_is_followed(listener):
+    sensing = ActiveSensing(listener, FingerMotion(lag=0.1), BELT, 0.3)
+    sensing.tick(1.0, 0.30, 0.0, 0.01)
+    sensing.tick(1.1, 0.31, 0.0, 0.01)
+    # A lag of 0.1 s goes 0.01 (0.1 - 0.1 (1 - 1/e)) m in the first 0.1 s.
+    assert listener.pushes[-1][1] == pytest.approx(0.01 * math.exp(-1.0))
+
+
+ANYTHING = st.floats() | st.floats(-1.6, 1.6)
+SENSIBLE = st.tuples(
+    st.floats(0.0, 0.2), st.floats(-0.6, 0.6), st.floats(0.0, 0.3), st.floats(-0.02, 0.02)
+)
+TICKS = st.lists(SENSIBLE | st.tuples(st.floats(-1e9, 1e9), ANYTHING, ANYTHING, ANYTHING))
+TRIANGLE = [[-0.02, -0.02], [0.04, -0.02], [-0.02, 0.04]]
+
+
+@settings(max_examples=50, deadline=None)
+@given(TICKS, st.booleans())
+def test_whatever_it_is_told_its_intervals_are_in_order_and_within_the_edge(ticks, is_disk):
+    estimator = (
+        DiskEstimator(0.0285, 0.0035) if is_disk else ObjectEstimator(edges_of(TRIANGLE), 0.0035)
+    )
+    sensing, stamp = ActiveSensing(estimator, FingerMotion(), BELT, 0.3), 100.0
+    for later, theta, silence, v_x in ticks:
+        stamp += later
+        values = sensing_values(sensing.tick(stamp, theta, silence, v_x), sensing)
+        assert -0.085 < values['d_least'] <= values['d_lower'] <= values['d_upper']
+        assert values['d_upper'] <= values['d_most'] < 0.085
+        if values['readings']:
+            assert math.isfinite(values['theta'])
+        if not math.isnan(values['d']):
+            assert values['d_least'] <= values['d'] <= values['d_most']

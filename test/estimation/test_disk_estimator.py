@@ -1,0 +1,87 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+import math
+
+import numpy as np
+import pytest
+from simulated_pushes import BELT, NOISE, PERIOD
+
+from tactile_push.control import PushLaw, finger_velocity
+from tactile_push.estimation import ContactEstimator, DiskEstimator, Prior
+from tactile_push.mechanics import Outline, Slider
+from tactile_push.simulation import Rig, RigConfig
+
+DISK = 0.0285
+
+
+def followed(mu_c, c, theta, seed, steps=150):
+    """Push a disk under the paper's law: estimates, and where the disk is and how it turns."""
+    rng = np.random.default_rng(seed)
+    rig = Rig(RigConfig(Slider(Outline.circle(DISK), c), mu_c, theta, 0.0))
+    law, estimator = PushLaw(0.05, 5.0, math.radians(-10.0)), DiskEstimator(DISK, NOISE)
+    x, rows = 0.0, []
+    for k in range(steps + 1):
+        reading = rig.theta + NOISE * rng.standard_normal()
+        estimate = estimator.push(reading, (rig.finger_x - x) / PERIOD, BELT, PERIOD if k else 0.0)
+        rows.append((estimate, rig.object_in_finger_disk, rig.theta))
+        x = rig.finger_x
+        rig.step(finger_velocity(law.update(reading), BELT), PERIOD)
+    return rows
+
+
+@pytest.mark.parametrize('mu_c', [0.0, 0.3, math.inf])
+def test_the_disk_is_where_the_mechanics_has_it(mu_c):
+    squares, inside = [], 0
+    for seed in range(8):
+        c = 0.008 + 0.003 * seed
+        for estimate, pose, theta in followed(mu_c, c, 0.3 - 0.08 * seed, seed)[20::30]:
+            error = estimate.pose[:2] - (pose.x, pose.y)
+            squares.append(error @ np.linalg.solve(estimate.covariance[:2, :2], error))
+            inside += estimate.c.lower <= c <= estimate.c.upper
+            assert estimate.contradiction == ''
+            assert (estimate.d.lower, estimate.d.upper) == (0.0, 0.0)
+            assert abs(estimate.theta - theta) < 4.0 * NOISE
+    assert np.mean(squares) < 3.0  # 2 on average if the covariance is right
+    assert inside >= len(squares) * 0.85
+
+
+def test_how_the_disk_has_turned_stays_unknown():
+    estimate = followed(math.inf, 0.019, 0.3, 0, 20)[-1][0]
+
+    assert estimate.covariance[2, 2] == pytest.approx((2.0 * math.pi) ** 2 / 12.0)
+    assert estimate.edges == ()
+    assert estimate.edge == -1
+    assert len(estimate.weights) == 0
+
+
+def test_pushing_tells_of_c():
+    widths = [one.c.upper - one.c.lower for one, _, _ in followed(math.inf, 0.019, 0.3, 1, 100)]
+    assert 0.028 < widths[0] < 0.031  # of 0.031 m
+    assert widths[-1] < 0.5 * widths[0]
+
+
+def test_before_any_data_nothing_is_known():
+    estimator = DiskEstimator(DISK, NOISE)
+
+    estimate = estimator.push(math.nan, 0.0, BELT, PERIOD)
+    assert np.isnan(estimate.pose[:2]).all()
+    assert (estimate.c.lower, estimate.c.upper) == (0.005, 0.036)
+
+
+def test_a_disk_has_no_edge():
+    with pytest.raises(ValueError, match='disk'):
+        ContactEstimator(Prior((-0.01, 0.01), DISK), NOISE, disk=True)
+    with pytest.raises(ValueError, match='l:'):
+        DiskEstimator(0.0, NOISE)
