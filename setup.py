@@ -22,6 +22,7 @@ NODES = (
     'sensor_driver',
     'contact_geometry',
     'push_controller',
+    'active_sensing',
     'sim_plant',
     'experiment',
     'bag_recorder',

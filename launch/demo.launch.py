@@ -11,7 +11,7 @@
 # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
 # See the License for the specific language governing permissions and
 # limitations under the License.
-"""The demonstration on a machine with ROS 2: the four nodes, in simulated time, and RViz."""
+"""The demonstration on a machine with ROS 2: the five nodes, in simulated time, and RViz."""
 
 import os
 
@@ -78,6 +78,7 @@ def generate_launch_description() -> LaunchDescription:
         _node('sensor_driver', device, simulated),
         _node('contact_geometry', config, simulated),
         _node('push_controller', config, {'kp': _number('kp'), 'kd': _number('kd')}, simulated),
+        _node('active_sensing', config, simulated),
     ]
     # A demonstration is nobody's business on other machines.
     on_this_machine = [SetEnvironmentVariable(*variable) for variable in loopback().items()]

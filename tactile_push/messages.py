@@ -16,10 +16,12 @@
 from collections.abc import Mapping
 
 from builtin_interfaces.msg import Time
-from geometry_msgs.msg import PoseStamped, TwistStamped
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TwistStamped
 from sensor_msgs.msg import JointState
 
-from tactile_push.tactile import Contact, quaternion_of_yaw
+from tactile_push.mechanics.compiled import Array
+from tactile_push.stamps import stamp_before
+from tactile_push.tactile import Contact, covariance_in_space, quaternion_of_yaw
 
 FINGER_DISK = 'finger_disk'  # frame of the contacts
 FINGER_BASE = 'finger_base'  # frame of the commands
@@ -95,3 +97,36 @@ def velocity_command(v_x: float, stamp: Time) -> TwistStamped:
     command.header.frame_id = FINGER_BASE
     command.twist.linear.x = v_x
     return command
+
+
+def object_pose_message(
+    pose: Array, covariance: Array, stamp: Time, age: float
+) -> PoseWithCovarianceStamped:
+    """Give the message of where the object is.
+
+    Parameters
+    ----------
+    pose : ndarray, shape (3,)
+        x, y of the centre of mass [m] and angle of the object [rad].
+    covariance : ndarray, shape (3, 3)
+        Their covariance.
+    stamp : Time
+        When the pose was told.
+    age : float
+        How much earlier the object was there [s].
+
+    Returns
+    -------
+    PoseWithCovarianceStamped
+        The message; what sticks out of the plane is exactly 0.
+    """
+    sec, nanosec = stamp_before(stamp.sec, stamp.nanosec, age)
+    message = PoseWithCovarianceStamped()
+    message.header.stamp = Time(sec=sec, nanosec=nanosec)
+    message.header.frame_id = FINGER_DISK
+    x, y, angle = pose.tolist()
+    message.pose.pose.position.x, message.pose.pose.position.y = x, y
+    orientation = message.pose.pose.orientation
+    orientation.z, orientation.w = quaternion_of_yaw(angle)
+    message.pose.covariance = covariance_in_space(covariance.tolist())
+    return message

@@ -53,3 +53,21 @@ def seconds_since(epoch: int, sec: int, nanosec: int) -> float:
         Time [s].
     """
     return sec - epoch + nanosec * 1e-9
+
+
+def stamp_before(sec: int, nanosec: int, age: float) -> tuple[int, int]:
+    """Give the stamp of what was older at a given one.
+
+    Parameters
+    ----------
+    sec, nanosec : int
+        The stamp [s, ns].
+    age : float
+        By how much [s].
+
+    Returns
+    -------
+    sec, nanosec : int
+        Its stamp [s, ns]; 0 if it is older than the clock.
+    """
+    return divmod(max(0, sec * 10**9 + nanosec - round(1e9 * age)), 10**9)

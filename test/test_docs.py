@@ -21,6 +21,7 @@ import pytest
 import yaml
 
 import tactile_push.mechanics
+from tactile_push.nodes.active_sensing import ActiveSensingNode
 from tactile_push.nodes.bag_player import BagPlayer
 from tactile_push.nodes.bag_recorder import BagRecorder
 from tactile_push.nodes.contact_geometry import ContactGeometry
@@ -43,6 +44,7 @@ WIRE_FORMAT = (ROOT / 'docs' / 'wire_format.md').read_text()
         SensorDriver,
         ContactGeometry,
         PushController,
+        ActiveSensingNode,
         SimPlant,
         Experiment,
         BagRecorder,
@@ -65,7 +67,9 @@ def test_readme_has_every_parameter_with_its_default_and_unit(node):
 
 @pytest.mark.parametrize('file', sorted((ROOT / 'config').glob('*.yaml')), ids=lambda f: f.stem)
 def test_parameter_files_name_parameters_of_their_nodes_within_their_ranges(file):
-    known = {node.NAME: node for node in (ContactGeometry, PushController, SimPlant)}
+    known = {
+        node.NAME: node for node in (ContactGeometry, PushController, ActiveSensingNode, SimPlant)
+    }
     for key, content in yaml.safe_load(file.read_text()).items():
         declared = {p.name: p for p in known[key.removeprefix('/**/')].PARAMETERS}
         for name, value in content['ros__parameters'].items():

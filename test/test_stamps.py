@@ -14,7 +14,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tactile_push.stamps import epoch_of, seconds_since
+from tactile_push.stamps import epoch_of, seconds_since, stamp_before
 
 NOW = 1_795_000_000  # some day in 2026 [s]
 
@@ -38,3 +38,11 @@ def test_neighbouring_nanoseconds_are_two_times(later, nanosec):
 
 def test_those_who_start_an_hour_apart_count_alike():
     assert epoch_of(NOW) == epoch_of(NOW + 3600)
+
+
+@given(st.integers(0, 2**31 - 1), st.integers(0, 10**9 - 1), st.integers(0, 10**9))
+def test_stamp_of_what_was_older_is_earlier_by_its_age_to_the_nanosecond(sec, nanosec, age):
+    before = stamp_before(sec, nanosec, age * 1e-9)
+    assert 0 <= before[1] < 10**9
+    expected = max(0, sec * 10**9 + nanosec - age)
+    assert before[0] * 10**9 + before[1] == expected

@@ -59,10 +59,16 @@ def send_extremes(rig: Rig, progress: Callable[[str], None] = lambda what: None)
     joints = rig.observer.hear(JointState, finger.name('joint_states'))
     finger.push()
     rig.observer.wait_for(lambda: joints, 'joint states')
+    finger.nodes.start('active_sensing', {})
+    state = finger.name('push_controller/state')
+    rig.observer.wait_for(
+        lambda: rig.observer.node.count_subscribers(state) > 1, 'active_sensing to listen'
+    )
     topics: dict[str, Any] = {
         'contact': finger.contacts[-1].message,
         'tactile': finger.tactile[-1].message,
         'joint_states': joints[-1].message,
+        'push_controller/state': finger.states[-1].message,
         'finger/cmd_vel': TwistStamped(),
     }
     sent = 0

@@ -58,6 +58,8 @@ class Parameter:
         kind = {bool: 'true or false', int: 'a whole number', float: 'a number', str: 'a text'}.get(
             type(self.default), 'a list of texts'
         )
+        if isinstance(self.default, list) and self.default and type(self.default[0]) is float:
+            kind = 'a list of numbers with decimal points'
         unit = f' [{self.unit}]' if self.unit else ''
         if type(self.default) is float:
             kind = 'a number with a decimal point'
@@ -81,6 +83,9 @@ class Parameter:
         fits = type(value) is type(self.default)
         if fits and isinstance(value, int | float) and not isinstance(value, bool):
             fits = self.lower <= value <= self.upper
+        if fits and isinstance(value, list):
+            kind = type(self.default[0]) if self.default else str
+            fits = all(type(item) is kind for item in value)
         if fits and self.choices:
             fits = value in self.choices
         if not fits:

@@ -86,6 +86,11 @@ class Tick:
     elapsed: float
     finger_age: float
 
+    @property
+    def known_velocity(self) -> float:
+        """Velocity of the finger from then on [m/s]; NaN if somebody else may move it."""
+        return math.nan if self.v_x is None or self.stop_reason == ANOTHER_COMMAND else self.v_x
+
 
 class PushControl:
     """Runs the law on fresh contacts, within bounds, and stops the finger when it must.

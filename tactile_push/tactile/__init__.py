@@ -23,7 +23,11 @@ from tactile_push.tactile.hemisphere import (
     reading_of_contact,
 )
 from tactile_push.tactile.jumps import JUMP_TOLERANCE, MAX_THETA_RATE, JumpGuard
-from tactile_push.tactile.orientation import quaternion_of_yaw, yaw_of_quaternion
+from tactile_push.tactile.orientation import (
+    covariance_in_space,
+    quaternion_of_yaw,
+    yaw_of_quaternion,
+)
 from tactile_push.tactile.pole_history import BELIEVED, PoleHistory
 from tactile_push.tactile.reading import NO_CONTACT, Reading
 from tactile_push.tactile.record import reading_values
@@ -50,6 +54,7 @@ __all__ = [
     'SentenceStream',
     'checksum',
     'contact_of_reading',
+    'covariance_in_space',
     'decode',
     'encode',
     'normalized_angle',

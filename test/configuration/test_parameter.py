@@ -29,6 +29,8 @@ COUNT = Parameter('count', 3, '', 'a count', 0, 100)
 KIND = Parameter('kind', 'block', '', 'a kind', choices=('block', 'disk'))
 FLAG = Parameter('flag', True, '', 'a flag')
 NAMES = Parameter('names', ['a', 'b'], '', 'names')
+ANY_NAMES = Parameter('any_names', [], '', 'names')
+PLACES = Parameter('places', [0.0, 0.1], 'm', 'places')
 EVERYTHING = [
     parameter
     for module in (contact_geometry, push_controller, sim_plant)
@@ -38,7 +40,16 @@ EVERYTHING = [
 
 @pytest.mark.parametrize(
     ('parameter', 'value'),
-    [(GAIN, 0.0), (GAIN, 10.0), (COUNT, 100), (KIND, 'disk'), (FLAG, False), (NAMES, [])],
+    [
+        (GAIN, 0.0),
+        (GAIN, 10.0),
+        (COUNT, 100),
+        (KIND, 'disk'),
+        (FLAG, False),
+        (NAMES, []),
+        (ANY_NAMES, ['c']),
+        (PLACES, [0.2]),
+    ],
 )
 def test_a_value_of_its_type_and_range_is_taken(parameter, value):
     assert getattr(values_of([parameter], {parameter.name: value}), parameter.name) == value
@@ -63,6 +74,10 @@ def test_a_value_of_its_type_and_range_is_taken(parameter, value):
         (FLAG, 'true'),
         (NAMES, 'a'),
         (NAMES, None),
+        (NAMES, ['a', 1]),
+        (ANY_NAMES, [0.5]),
+        (PLACES, [0.0, 1]),
+        (PLACES, ['a']),
     ],
 )
 def test_any_other_is_refused_with_what_was_expected(parameter, value):

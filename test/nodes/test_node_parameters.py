@@ -38,6 +38,7 @@ NODES = {
     'sensor_driver': 'SensorDriver',
     'contact_geometry': 'ContactGeometry',
     'push_controller': 'PushController',
+    'active_sensing': 'ActiveSensingNode',
     'sim_plant': 'SimPlant',
     'experiment': 'Experiment',
     'bag_recorder': 'BagRecorder',
@@ -161,9 +162,13 @@ def test_descriptor_tells_unit_range_and_whether_it_is_fixed(parameter):
 # Quantities without a unit: shares, counts and coefficients.
 WITHOUT_UNIT = {
     'belt_ripple',
+    'edge',
+    'l_share',
     'max_out_of_plane',
     'max_ticks_lost',
     'mu_c',
+    'mu_c_max',
+    'mu_c_min',
     'mu_c_ripple',
     'seed',
     'sensor_dropout',
@@ -174,7 +179,8 @@ WITHOUT_UNIT = {
 
 @pytest.mark.parametrize('parameter', DECLARED)
 def test_number_has_a_unit_unless_it_is_a_pure_number(parameter):
-    if type(parameter.default) in (int, float):
+    default = parameter.default
+    if type(default[0] if default and isinstance(default, list) else default) in (int, float):
         assert parameter.unit or parameter.name in WITHOUT_UNIT
     else:
         assert not parameter.unit

@@ -11,7 +11,10 @@
 # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
 # See the License for the specific language governing permissions and
 # limitations under the License.
-"""Rotations about z against the definition of a quaternion: (sin(yaw / 2) z, cos(yaw / 2))."""
+"""Rotations about z against the definition of a quaternion: (sin(yaw / 2) z, cos(yaw / 2)).
+
+Covariances against the order of geometry_msgs/PoseWithCovariance: x, y, z, rotations about X, Y, Z.
+"""
 
 import math
 
@@ -19,7 +22,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tactile_push.tactile import quaternion_of_yaw, yaw_of_quaternion
+from tactile_push.tactile import covariance_in_space, quaternion_of_yaw, yaw_of_quaternion
 
 PROPERTY = settings(derandomize=True, deadline=None, max_examples=60)
 HALF = math.sqrt(0.5)
@@ -87,3 +90,15 @@ def test_rotation_about_a_leaning_axis_has_no_yaw(x, y):
 def test_what_rounding_leaves_of_x_and_y_does_no_harm(x, y):
     assert yaw_of_quaternion(x, y, HALF, HALF) == pytest.approx(math.pi / 2.0)
     assert yaw_of_quaternion(1e3 * x, 1e3 * y, 1e3, 1e3) == pytest.approx(math.pi / 2.0)
+
+
+def test_covariance_in_space_has_the_planar_one_in_its_rows_of_x_y_and_yaw():
+    numbers = covariance_in_space([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]])
+    assert [numbers[row * 6 : row * 6 + 6] for row in range(6)] == [
+        [1.0, 2.0, 0.0, 0.0, 0.0, 3.0],
+        [4.0, 5.0, 0.0, 0.0, 0.0, 6.0],
+        [0.0] * 6,
+        [0.0] * 6,
+        [0.0] * 6,
+        [7.0, 8.0, 0.0, 0.0, 0.0, 9.0],
+    ]

@@ -1,0 +1,237 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""Active sensing as a node, beside the truth that the simulated plant tells."""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
+from live import CONFIG, Observer, Rig, field, seconds
+from sensor_msgs.msg import JointState
+from visualization_msgs.msg import MarkerArray
+
+from tactile_push.estimation import CONTRADICTIONS
+from tactile_push.processes import NodeProcesses
+from tactile_push.tactile import yaw_of_quaternion
+
+NOISE = 0.0035  # of the sensor [rad]
+PERIOD = 0.1
+
+
+class Sensing:
+    """The node, and what it says."""
+
+    def __init__(self, nodes: NodeProcesses, observer: Observer) -> None:
+        self._nodes = nodes
+        self._observer = observer
+        self.states = observer.collect(JointState, 'active_sensing/state')
+        self.poses = observer.collect(PoseWithCovarianceStamped, 'object_pose')
+        self.true_poses = observer.collect(PoseStamped, 'ground_truth/object_pose')
+        self._diagnostics = observer.collect(DiagnosticArray, '/diagnostics')
+
+    def start(self, config: str = 'block', **parameters: Any) -> None:
+        """Start the node and wait until it can hear the controller."""
+        settings = {'use_sim_time': True, 'noise': NOISE, **parameters}
+        self._nodes.start('active_sensing', settings, config=CONFIG / f'{config}.yaml')
+        self._observer.wait_for(
+            lambda: self._observer.node.count_subscribers('push_controller/state'),
+            'active_sensing to listen',
+        )
+
+    def reports(self) -> list[DiagnosticStatus]:
+        """Give what its diagnostics have said so far."""
+        found = [status for array in self._diagnostics for status in array.status]
+        return [status for status in found if status.name == 'active_sensing']
+
+    def said(self, words: str, level: bytes) -> bool:
+        """Tell whether its diagnostics said something."""
+        return any(r.level == level and words in r.message for r in self.reports())
+
+    def true(self, truth: list[JointState], name: str) -> Callable[[JointState], float]:
+        """Give a function from its states to the truth at the reading that they are about."""
+        times = np.array([seconds(m) for m in truth])
+        values = np.array([field(m, name) for m in truth])
+
+        def at(state: JointState) -> float:
+            return float(np.interp(seconds(state) - field(state, 'age'), times, values))
+
+        return at
+
+
+@pytest.fixture
+def sensing(nodes: NodeProcesses, observer: Observer) -> Sensing:
+    return Sensing(nodes, observer)
+
+
+def test_block_is_located_while_it_is_turned(sensing: Sensing, rig: Rig, observer: Observer):
+    markers = observer.collect(MarkerArray, 'active_sensing/markers')
+    sensing.start()
+    rig.start(sensor_noise=NOISE)
+    observer.wait_for(lambda: len(sensing.states) > 250, '250 control periods')
+    observer.wait_for(
+        lambda: seconds(rig.truth[-1]) > seconds(sensing.states[250]), 'the truth of that time'
+    )
+    states = [s for s in sensing.states[:250] if field(s, 'readings') > 0]
+    assert len(states) > 240
+    true_d = sensing.true(rig.truth, 'd')
+    for state in states:
+        assert field(state, 'd_least') <= true_d(state) <= field(state, 'd_most')
+    inside = [field(s, 'd_lower') <= true_d(s) <= field(s, 'd_upper') for s in states]
+    # Errors of one run hang together: a run in twenty may be outside for long.
+    assert np.mean(inside) > 0.5
+    widths = [field(s, 'd_upper') - field(s, 'd_lower') for s in states]
+    assert widths[0] > 0.045  # the edge
+    assert widths[-1] < 0.003
+    assert abs(field(states[-1], 'd') - true_d(states[-1])) < 0.0015
+    assert {field(s, 'edge') for s in states} == {0.0}
+    assert {field(s, 'contradiction') for s in states} == {0.0}
+    assert sensing.said('estimating', DiagnosticStatus.OK)
+
+    times = np.array([seconds(m) for m in sensing.true_poses])
+    true = np.array(
+        [
+            (
+                m.pose.position.x,
+                m.pose.position.y,
+                yaw_of_quaternion(0.0, 0.0, m.pose.orientation.z, m.pose.orientation.w),
+            )
+            for m in sensing.true_poses
+        ]
+    )
+    poses = [m for m in sensing.poses if seconds(m) <= times[-1]]
+    assert len(poses) > 240
+    distances = []
+    for message in poses:
+        pose, covariance = message.pose.pose, np.reshape(message.pose.covariance, (6, 6))
+        assert message.header.frame_id == 'finger_disk'
+        yaw = yaw_of_quaternion(0.0, 0.0, pose.orientation.z, pose.orientation.w)
+        estimate = np.array([pose.position.x, pose.position.y, yaw])
+        at = [np.interp(seconds(message), times, column) for column in true.T]
+        plane = covariance[np.ix_((0, 1, 5), (0, 1, 5))]
+        assert np.linalg.eigvalsh(plane).min() > 0.0
+        error = estimate - at
+        distances.append(error @ np.linalg.solve(plane, error))
+    # The sum of three squares, of which 99.9 % are below 16; they hang together.
+    assert np.mean(np.array(distances) < 16.3) > 0.9
+    kinds = {marker.ns for array in markers for marker in array.markers}
+    assert kinds == {'outline', 'likely', 'possible'}
+
+
+def test_disk_is_located_but_not_how_it_is_turned(sensing: Sensing, rig: Rig, observer: Observer):
+    sensing.start('disk')
+    rig.start('disk', sensor_noise=NOISE)
+    observer.wait_for(lambda: len(sensing.poses) > 50, '50 poses')
+    last = sensing.poses[-1]
+    observer.wait_for(
+        lambda: seconds(sensing.true_poses[-1]) > seconds(last), 'the truth of that time'
+    )
+    nearest = min(sensing.true_poses, key=lambda m: abs(seconds(m) - seconds(last)))
+    found, true = last.pose.pose.position, nearest.pose.position
+    # Its centre is 42 mm from the disk's, in the direction of the normal.
+    assert math.hypot(found.x - true.x, found.y - true.y) < 0.042 * 4.0 * NOISE
+    assert math.sqrt(last.pose.covariance[35]) > 1.5
+    assert field(sensing.states[-1], 'd') == 0.0
+
+
+def test_another_object_is_said_and_no_pose_is_told(sensing: Sensing, rig: Rig, observer: Observer):
+    deep = [-0.025, -0.1, 0.025, -0.1, 0.025, 0.1, -0.025, 0.1]  # turns a third as fast
+    sensing.start(vertices=deep)
+    rig.start(sensor_noise=NOISE)
+    observer.wait_for(
+        lambda: sensing.said('nothing known', DiagnosticStatus.ERROR), 'the contradiction'
+    )
+    why = next(r.message for r in sensing.reports() if r.level == DiagnosticStatus.ERROR)
+    contradicted = [s for s in sensing.states if field(s, 'contradiction') > 0]
+    assert CONTRADICTIONS[int(field(contradicted[0], 'contradiction'))] in why
+    for state in contradicted:
+        assert math.isnan(field(state, 'd'))
+        assert field(state, 'd_upper') - field(state, 'd_lower') > 0.045
+    told = [seconds(m) for m in sensing.poses]
+    assert told
+    readings = [seconds(s) - field(s, 'age') for s in contradicted]
+    assert not any(abs(read - pose) < 1e-4 for read in readings for pose in told)
+
+
+def test_lost_contact_is_forgotten_and_found_again(
+    nodes: NodeProcesses, sensing: Sensing, rig: Rig, observer: Observer
+):
+    sensing.start()
+    rig.start(sensor_noise=NOISE)
+    observer.wait_for(lambda: len(sensing.poses) > 30, '30 poses')
+    nodes.running['sensor_driver'].kill()
+    observer.wait_for(
+        lambda: sensing.said('no contact', DiagnosticStatus.WARN), 'the loss of the contact'
+    )
+    lost = sensing.states[-1]
+    assert field(lost, 'readings') == 0.0
+    assert math.isnan(field(lost, 'd'))
+    assert field(lost, 'd_upper') - field(lost, 'd_lower') > 0.045
+    seen = len(sensing.states)
+    nodes.running['sensor_driver'].wait()
+    rig.start_driver()
+    observer.wait_for(
+        lambda: any(field(s, 'readings') > 5 for s in sensing.states[seen:]), 'new readings'
+    )
+    counts = {v.key: v.value for v in sensing.reports()[-1].values}
+    assert int(counts['forgot everything: contact lost']) >= 1
+
+
+def test_ticks_without_sense_do_no_harm(sensing: Sensing, observer: Observer):
+    publisher = observer.node.create_publisher(JointState, 'push_controller/state', 10)
+    sensing.start()
+    observer.wait_for(publisher.get_subscription_count, 'the node')
+    names = [
+        'theta',
+        'theta_desired',
+        'phi',
+        'v_x',
+        'kp',
+        'kd',
+        'silence',
+        'saturated',
+        'limited',
+        'finger_x',
+        'state',
+    ]
+    names += ['stop_reason', 'ticks', 'ticks_lost']
+    good = dict.fromkeys(names, 0.0) | {'state': 2.0}
+    wrong = (
+        JointState(),
+        JointState(name=['theta'], position=[0.1]),
+        JointState(name=names, position=[math.nan] * len(names)),
+        JointState(name=names, position=[1e308] * len(names)),
+        JointState(name=names, position=list((good | {'state': 99.0}).values())),
+        JointState(name=names, position=list((good | {'theta': math.inf}).values())),
+        JointState(name=names, position=list((good | {'v_x': math.inf}).values())),
+        JointState(name=names, position=list((good | {'silence': -math.inf}).values())),
+    )
+    for k, message in enumerate([*wrong, *wrong]):
+        message.header.stamp.nanosec = 100_000_000 * (k % 9)
+        publisher.publish(message)
+    for k in range(5):
+        message = JointState(name=names, position=list((good | {'theta': 0.3}).values()))
+        message.header.stamp.sec, message.header.stamp.nanosec = 5, 100_000_000 * k
+        publisher.publish(message)
+    observer.wait_for(
+        lambda: any(field(s, 'readings') == 5.0 for s in sensing.states), 'the good ones'
+    )
+    counts = observer.wait_for(
+        lambda: [v for r in sensing.reports() for v in r.values if v.key == 'ticks without sense'],
+        'the count',
+    )
+    assert int(counts[-1].value) > 0
