@@ -76,6 +76,36 @@ def encode_pose(
     return _LITTLE_ENDIAN + body + struct.pack('<7d', *position, *turn)
 
 
+def encode_unsure_pose(
+    stamp: Stamp,
+    frame: str,
+    position: Sequence[float],
+    turn: Sequence[float],
+    covariance: Sequence[float],
+) -> bytes:
+    """Write a geometry_msgs/PoseWithCovarianceStamped.
+
+    Parameters
+    ----------
+    stamp : tuple of int
+        Its time [s, ns].
+    frame : str
+        Its frame.
+    position : sequence of float, length 3
+        x, y, z [m].
+    turn : sequence of float, length 4
+        Quaternion x, y, z, w.
+    covariance : sequence of float, length 36
+        Of x, y, z and the rotations about them, row by row.
+
+    Returns
+    -------
+    bytes
+        The message.
+    """
+    return encode_pose(stamp, frame, position, turn) + struct.pack('<36d', *covariance)
+
+
 def encode_twist(stamp: Stamp, frame: str, v_x: float) -> bytes:
     """Write a geometry_msgs/TwistStamped along x.
 

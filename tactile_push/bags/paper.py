@@ -37,6 +37,8 @@ class PaperFigures:
         Least and greatest angle from step 400 on [rad].
     d_range : tuple of float, optional
         Bounds on d that follow by (17) [m].
+    known_step : int, optional
+        Step from which on they hold: before, the paper knows nothing of d.
     """
 
     figure: str
@@ -47,6 +49,7 @@ class PaperFigures:
     theta_range: Range | None = None
     phi_range: Range | None = None
     d_range: Range | None = None
+    known_step: int | None = None
 
 
 PAPER = (
@@ -59,6 +62,7 @@ PAPER = (
         (math.radians(-10.4), math.radians(-8.9)),
         (math.radians(80.2), math.radians(85.8)),
         (0.0003, 0.0021),
+        400,
     ),
     PaperFigures('10', 'disk', 0.0, math.radians(1.0), 110),
 )

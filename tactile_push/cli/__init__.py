@@ -23,6 +23,7 @@ from typing import NoReturn
 from tactile_push.cli import (
     demo,
     diff,
+    estimate,
     figures,
     info,
     play,
@@ -52,7 +53,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
         description='Turn and locate objects by pushing them with one tactile finger.',
     )
     commands = parser.add_subparsers(required=True, metavar='COMMAND')
-    for command in (demo, simulate, figures, record, play, replay, info, diff, report):
+    for command in (
+        demo,
+        simulate,
+        figures,
+        record,
+        play,
+        replay,
+        estimate,
+        info,
+        diff,
+        report,
+    ):
         command.add(commands)
     options = parser.parse_args(arguments)
     for signum in (signal.SIGTERM, signal.SIGHUP):

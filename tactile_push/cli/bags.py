@@ -13,10 +13,12 @@
 # limitations under the License.
 """What the commands that read bags have in common: progress, warnings, tables, JSON."""
 
+import json
 import math
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 from rich.console import Console
@@ -94,3 +96,58 @@ def plain(value: Any) -> Any:
     if isinstance(value, float) and not math.isfinite(value):
         return str(value)
     return value
+
+
+def write_json(file: str, content: object) -> None:
+    """Write an object of plain values where `--json FILE|-` wants it.
+
+    Parameters
+    ----------
+    file : str
+        The file, or `-` for standard output.
+    content : object
+        What JSON knows.
+
+    Raises
+    ------
+    OSError
+        If it cannot be written.
+    """
+    text = json.dumps(content) + '\n'
+    if file == '-':
+        sys.stdout.write(text)
+    else:
+        Path(file).write_text(text)
+
+
+def bounded(values: Mapping[str, float], name: str, factor: float, digits: int) -> str:
+    """Give an estimated quantity with its intervals, for people.
+
+    Parameters
+    ----------
+    values : mapping of str to float
+        The numbers of `active_sensing/state` by name.
+    name : str
+        The quantity.
+    factor : float
+        To the unit that people read.
+    digits : int
+        Decimals.
+
+    Returns
+    -------
+    str
+        Such as ``'1.07, 95 %: 0.98 to 1.17, guaranteed: -1.20 to 3.50'``.
+    """
+
+    def fixed(value: float) -> str:
+        if math.isnan(value):
+            return 'unknown'
+        if math.isinf(value):
+            return '∞'
+        return f'{round(factor * value, digits) + 0.0:.{digits}f}'  # no -0.0
+
+    mean, lower, upper, least, most = (
+        fixed(values[f'{name}{bound}']) for bound in ('', '_lower', '_upper', '_least', '_most')
+    )
+    return f'{mean}, 95 %: {lower} to {upper}, guaranteed: {least} to {most}'

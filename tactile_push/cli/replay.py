@@ -11,10 +11,9 @@
 # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
 # See the License for the specific language governing permissions and
 # limitations under the License.
-"""`tactile_push replay`: a bag's readings through geometry and law again."""
+"""`tactile_push replay`: a bag's readings through geometry, law and active sensing again."""
 
 import argparse
-import json
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -37,10 +36,11 @@ def add(commands: Commands) -> None:
     """
     replay = commands.add_parser(
         'replay',
-        help="run a bag's readings through geometry and control law again",
+        help="run a bag's readings through geometry, control law and active sensing again",
         description='Feeds the recorded readings through the code that the nodes run, on the '
         'recorded stamps, without nodes and without waiting, and says what the law would have '
-        'commanded beside what was commanded. The same bag gives the same commands to the bit.',
+        'commanded beside what was commanded. The same bag gives the same commands to the bit. The '
+        'object is sensed again if active_sensing was recorded.',
     )
     option = replay.add_argument
     option('bag', type=Path, metavar='BAG', help='folder of a bag, or one of its files')
@@ -53,8 +53,9 @@ def add(commands: Commands) -> None:
         '--config',
         type=Path,
         metavar='FILE',
-        help='ROS parameter file with values for contact_geometry and push_controller to use '
-        'instead of the recorded ones',
+        help='ROS parameter file with values for contact_geometry, push_controller and '
+        'active_sensing to use instead of the recorded ones; with a section for active_sensing the '
+        'object is sensed even if it was not then',
     )
     option(
         '-o',
@@ -77,6 +78,7 @@ def _replay(options: argparse.Namespace) -> int:
     from rich.progress import Progress
 
     from tactile_push.bags import BagError, BagReader
+    from tactile_push.cli.bags import write_json
     from tactile_push.replay import replay
 
     def warn(line: str) -> None:
@@ -95,7 +97,7 @@ def _replay(options: argparse.Namespace) -> int:
             )
             bar.update(task, completed=sum(bag.counts.values()))
         if options.json is not None:
-            _write_json(options.json, comparisons)
+            write_json(options.json, {'fingers': [one.as_json() for one in comparisons]})
     except (BagError, ValueError) as error:
         warn(str(error))
         return 2
@@ -107,19 +109,12 @@ def _replay(options: argparse.Namespace) -> int:
     return 0
 
 
-def _write_json(file: str, comparisons: 'list[Comparison]') -> None:
-    text = json.dumps({'fingers': [comparison.as_json() for comparison in comparisons]}) + '\n'
-    if file == '-':
-        sys.stdout.write(text)
-    else:
-        Path(file).write_text(text)
-
-
 def _print(comparisons: 'list[Comparison]') -> None:
-    from rich.console import Console
     from rich.table import Table
 
-    console = Console()
+    from tactile_push.cli.bags import bounded, wide_console
+
+    console = wide_console()
     for comparison in comparisons:
         table = Table(show_header=False, title=comparison.finger or None)
 
@@ -144,4 +139,6 @@ def _print(comparisons: 'list[Comparison]') -> None:
                     f'{1000.0 * tick.v_x:.3f} mm/s instead of '
                     f'{1000.0 * tick.v_x_recorded:.3f} mm/s after {tick.time:.2f} s',
                 )
+        if comparison.sensed:
+            row(r'd at the end \[mm]', bounded(comparison.sensed[-1]._asdict(), 'd', 1e3, 2))
         console.print(table)

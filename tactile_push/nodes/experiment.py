@@ -37,6 +37,8 @@ AWAITED = (
     'contact_geometry/state',
     'finger/cmd_vel',
     'push_controller/state',
+    'object_pose',
+    'active_sensing/state',
     'ground_truth/object_pose',
     'ground_truth/state',
     '/diagnostics',
@@ -107,12 +109,14 @@ class Experiment(Node):
         self._transitions.pop(0)
 
     def _ready(self) -> bool:
-        """Tell whether all is recorded and the controller hears the contacts."""
+        """Tell whether all is recorded, and contacts and control periods are heard."""
         contact = self.resolve_topic_name('contact')
+        state = self.resolve_topic_name('push_controller/state')
         return (
             self._awaited.isdisjoint(self._recording.recorder.missing())
             and self._recording.recorder.counts[contact] > 0
             and self.count_subscribers(contact) > 1
+            and self.count_subscribers(state) > 1
         )
 
     def _report(self) -> None:

@@ -11,9 +11,11 @@
 # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
 # See the License for the specific language governing permissions and
 # limitations under the License.
-"""Runs a bag's readings through geometry and law again, without nodes and without waiting."""
+"""Runs a bag's messages through the nodes' code again, without nodes and without waiting."""
 
-from tactile_push.replay.comparison import Comparison, ReplayedTick
+from tactile_push.replay.comparison import Comparison, ReplayedTick, SensedTick
+from tactile_push.replay.estimate import estimate
+from tactile_push.replay.object_history import ObjectFigures
 from tactile_push.replay.replay import replay
 
-__all__ = ['Comparison', 'ReplayedTick', 'replay']
+__all__ = ['Comparison', 'ObjectFigures', 'ReplayedTick', 'SensedTick', 'estimate', 'replay']

@@ -14,6 +14,7 @@
 """What the law would have commanded beside what was commanded."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -44,6 +45,48 @@ class ReplayedTick(NamedTuple):
     stop_reason: str
 
 
+class SensedTick(NamedTuple):
+    """Where along the edge the finger was by one control period.
+
+    Parameters
+    ----------
+    time : float
+        Of the control period, since the beginning of the bag [s].
+    d, d_lower, d_upper, d_least, d_most : float
+        The contact, its 95 % interval and its guaranteed bounds at the last reading [m]; d is NaN
+        if nothing is known.
+    """
+
+    time: float
+    d: float
+    d_lower: float
+    d_upper: float
+    d_least: float
+    d_most: float
+
+    @classmethod
+    def of(cls, time: float, values: Mapping[str, float]) -> 'SensedTick':
+        """Take it from the numbers of `active_sensing/state`.
+
+        Parameters
+        ----------
+        time : float
+            Since the beginning of the bag [s].
+        values : mapping of str to float
+            The numbers by name.
+
+        Returns
+        -------
+        SensedTick
+            What they say of d.
+        """
+        return cls(time, *(values[name] for name in cls._fields[1:]))
+
+    def as_json(self) -> dict[str, object]:
+        """Give it as plain values, SI units; null where there is no number."""
+        return {name: _plain(value) for name, value in self._asdict().items()}
+
+
 @dataclass
 class Comparison:
     """How the commands of a finger compare.
@@ -63,6 +106,8 @@ class Comparison:
         Readings replayed, and contacts found in them.
     refused : dict of str to int
         Readings refused, by reason.
+    sensed : list of SensedTick or None
+        Where along the edge the finger was; None if the object was not sensed.
     """
 
     finger: str
@@ -71,6 +116,7 @@ class Comparison:
     readings: int = 0
     contacts: int = 0
     refused: dict[str, int] = field(default_factory=dict)
+    sensed: list[SensedTick] | None = None
 
     def add(self, time: float, tick: Tick, recorded: Tick | None) -> None:
         """Take a control period.
@@ -116,6 +162,7 @@ class Comparison:
             'kept': self.kept,
             'different': len(different),
             'ticks': [{k: _plain(v) for k, v in tick._asdict().items()} for tick in self.ticks],
+            'sensed': None if self.sensed is None else [tick.as_json() for tick in self.sensed],
         }
 
 

@@ -11,7 +11,7 @@
 # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
 # See the License for the specific language governing permissions and
 # limitations under the License.
-"""One finger's way from reading to command, over a bag's messages."""
+"""One finger's way from reading to command and estimate, over a bag's messages."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Set
@@ -21,11 +21,12 @@ from tactile_push.bags import Message
 from tactile_push.bags.cdr import encode_joint_state, encode_pose, encode_twist
 from tactile_push.configuration.contact_geometry import PARAMETERS as OF_GEOMETRY
 from tactile_push.configuration.push_controller import PARAMETERS as OF_CONTROLLER
-from tactile_push.control import tick_values
+from tactile_push.control import Tick, tick_values
 from tactile_push.replay.comparison import Comparison
 from tactile_push.replay.controller import Controller, Replayed
 from tactile_push.replay.geometry import Felt, Geometry, Stamp
 from tactile_push.replay.own_ticks import OwnTicks
+from tactile_push.replay.sensing import POSE, TOPICS, Output, Sensing, SensingAgain
 from tactile_push.tactile import quaternion_of_yaw, reading_values, yaw_of_quaternion
 
 INPUTS = {
@@ -35,10 +36,18 @@ INPUTS = {
     'contact_geometry/state': 'sensor_msgs/msg/JointState',
     'push_controller/state': 'sensor_msgs/msg/JointState',
     'finger/cmd_vel': 'geometry_msgs/msg/TwistStamped',
+    **TOPICS,
 }
-OUTPUTS = ('contact', 'contact_geometry/state', 'push_controller/state', 'finger/cmd_vel')
+OUTPUTS = (
+    'contact',
+    'contact_geometry/state',
+    'push_controller/state',
+    'finger/cmd_vel',
+    *TOPICS,
+)
 DISK, BASE = 'finger_disk', 'finger_base'  # frames of contacts and commands
 PATIENCE = 2 * 10**9  # after which a recorded command belongs to no tick [ns]
+REMEMBERED = 1000  # control periods whose recorded command has not come
 
 Write = Callable[[str, bytes, int], None]
 
@@ -53,7 +62,8 @@ class Finger:
     recorded : set of str
         Its topics in the bag, without the namespace.
     given : mapping of str to mapping
-        Parameters of its nodes that are not the default, by node.
+        Parameters of its nodes that are not the default, by node. Without `active_sensing` the
+        object is not sensed.
     overridden : set of str
         Parameters of `push_controller` that do not follow the bag.
     begin : tuple of int
@@ -91,11 +101,19 @@ class Finger:
             self._controller = Controller(given['push_controller'], overridden, epoch)
         else:
             self._controller = OwnTicks(given['push_controller'], epoch)
+        self._sensing: SensingAgain | None = None
+        self.comparison = Comparison(namespace.strip('/'))
+        if 'active_sensing' in given:
+            alike = recorded if 'push_controller/state' in recorded else set()
+            sensing = Sensing(given['active_sensing'], epoch)
+            self._sensing = SensingAgain(sensing, alike, self._start)
+            self.comparison.sensed = self._sensing.sensed
         self._first: Stamp | None = None  # reading that is replayed
         self._as_recorded: list[tuple[str, Stamp, Message]] = []  # of before, or to be replaced
         self._commands: dict[Stamp, Message] = {}
         self._states: dict[Stamp, Message] = {}
-        self.comparison = Comparison(namespace.strip('/'))
+        # Whether a control period has made its command again; a recorded one may come after it.
+        self._made: dict[Stamp, bool] = {}
 
     def take(self, topic: str, message: Message) -> None:
         """Take a message of the bag.
@@ -128,8 +146,9 @@ class Finger:
             self._states[_stamp(decoded)] = message
             self._conclude(controller.state(decoded, at))
         elif topic == 'finger/cmd_vel' and isinstance(controller, Controller):
-            self._commands[_stamp(self._decode(message))] = message
-            self._keep_commands(at - PATIENCE)
+            self._take_command(message)
+        elif topic in TOPICS:
+            self._take_sensed(topic, message)
 
     def change(self, node: str, values: Mapping[str, Any]) -> None:
         """Take parameters that changed.
@@ -153,8 +172,19 @@ class Finger:
         if isinstance(self._controller, Controller):
             self._conclude(self._controller.go_on(math.inf))
         self._keep_commands(math.inf)
+        if self._sensing is not None:
+            self._write(self._sensing.finish())
         if self._first is None:
             self._write_as_recorded(lambda stamp: True)
+
+    def _take_command(self, message: Message) -> None:
+        stamp = _stamp(self._decode(message))
+        made = self._made.pop(stamp, None)
+        if made is None:
+            self._commands[stamp] = message
+        elif not made:
+            self.write('finger/cmd_vel', message.data, message.log_time)
+        self._keep_commands(message.log_time - PATIENCE)
 
     def _take_joint_states(self, message: Message) -> None:
         own = isinstance(self._controller, OwnTicks)
@@ -202,6 +232,10 @@ class Finger:
     def _conclude(self, ticks: Iterable[Replayed]) -> None:
         for stamp, log_time, tick, recorded in ticks:
             state, command = self._states.pop(stamp, None), self._commands.pop(stamp, None)
+            if command is None:
+                self._made[stamp] = tick is not None and tick.v_x is not None
+                if len(self._made) > REMEMBERED:
+                    del self._made[next(iter(self._made))]
             if tick is None:
                 self.comparison.kept += 1
                 for topic, message in (
@@ -210,6 +244,7 @@ class Finger:
                 ):
                     if message is not None:
                         self.write(topic, message.data, message.log_time)
+                self._sense(stamp, log_time, recorded)
                 continue
             if tick.v_x is not None:
                 self.write('finger/cmd_vel', encode_twist(stamp, BASE, tick.v_x), log_time)
@@ -217,6 +252,24 @@ class Finger:
             self.write('push_controller/state', encode_joint_state(stamp, values), log_time)
             since = (stamp[0] * 10**9 + stamp[1] - self._start) * 1e-9
             self.comparison.add(since, tick, recorded)
+            self._sense(stamp, log_time, tick)
+
+    def _sense(self, stamp: Stamp, log_time: int, tick: Tick | None) -> None:
+        if self._sensing is not None and tick is not None:
+            self._write(self._sensing.tick(stamp, log_time, tick))
+
+    def _take_sensed(self, topic: str, message: Message) -> None:
+        """Take what was recorded of the object, and keep it if it is not made again."""
+        if self._sensing is None:
+            self.write(topic, message.data, message.log_time)
+        elif topic == POSE:
+            self._write(self._sensing.pose(message, self._decode(message)))
+        else:
+            self._write(self._sensing.state(message, self._decode(message)))
+
+    def _write(self, outputs: Iterable[Output]) -> None:
+        for output in outputs:
+            self.write(*output)
 
     def _keep(self, topic: str, message: Message, decoded: Any) -> None:
         """Keep what was recorded before the first reading that is replayed."""

@@ -16,17 +16,25 @@
 import difflib
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import yaml
 
+from tactile_push.configuration.active_sensing import PARAMETERS as OF_SENSING
 from tactile_push.configuration.contact_geometry import PARAMETERS as OF_GEOMETRY
 from tactile_push.configuration.push_controller import PARAMETERS as OF_CONTROLLER
 
-NODES = {'contact_geometry': OF_GEOMETRY, 'push_controller': OF_CONTROLLER}
+NODES = {
+    'contact_geometry': OF_GEOMETRY,
+    'push_controller': OF_CONTROLLER,
+    'active_sensing': OF_SENSING,
+}
 NOTE = 'tactile_push.parameters'  # of a bag
+# What other nodes of the finger know too, where active_sensing was not recorded.
+KNOWN_TO = {'belt_speed': 'push_controller', 'finger_radius': 'contact_geometry'}
+OF_OUTLINE = ('disk_radius', 'edge')  # what another outline replaces, too
 
 ByNode = dict[str, dict[str, Any]]  # values by node and name
 
@@ -50,13 +58,13 @@ def recorded_parameters(notes: Mapping[str, str], namespace: str) -> ByNode:
     return {node: everything.get(f'{namespace}{node}'.lstrip('/'), {}) for node in NODES}
 
 
-def read_config(file: Path, namespace: str) -> ByNode:
+def read_config(file: Path | None, namespace: str) -> ByNode:
     """Read the parameters of a finger's nodes from a ROS parameter file.
 
     Parameters
     ----------
-    file : path
-        The file, as `--params-file` takes it.
+    file : path or None
+        The file, as `--params-file` takes it, if there is one.
     namespace : str
         Namespace with a slash at either end.
 
@@ -72,14 +80,10 @@ def read_config(file: Path, namespace: str) -> ByNode:
     OSError
         If it cannot be read.
     """
-    try:
-        document = yaml.safe_load(file.read_text())
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise ValueError(f'{file}: no YAML: {" ".join(str(error).split())}') from None
     values: ByNode = {node: {} for node in NODES}
-    for pattern, section in document.items() if isinstance(document, dict) else ():
+    for pattern, section in _sections(file):
         for node in NODES:
-            if _matches(str(pattern), f'{namespace}{node}'):
+            if _matches(pattern, f'{namespace}{node}'):
                 given = section.get('ros__parameters') if isinstance(section, dict) else None
                 if not isinstance(given, dict):
                     raise ValueError(f'{file}: {pattern}: expected ros__parameters: with values')
@@ -90,6 +94,60 @@ def read_config(file: Path, namespace: str) -> ByNode:
         if similar:
             raise ValueError(f'{file}: {name}: unknown, did you mean {similar[0]}?')
     return values
+
+
+def sensing_parameters(given: ByNode, wanted: ByNode) -> dict[str, Any]:
+    """Give the parameters with which the object is sensed.
+
+    Parameters
+    ----------
+    given : dict
+        The recorded values by node and name.
+    wanted : dict
+        Those that somebody wants instead.
+
+    Returns
+    -------
+    dict
+        The values by name; those of the rig as its other nodes had them, if nobody says otherwise,
+        and none that go with another outline than the wanted one.
+    """
+    wanted_now, recorded = wanted['active_sensing'], dict(given['active_sensing'])
+    if 'vertices' in wanted_now:
+        for name in OF_OUTLINE:
+            recorded.pop(name, None)
+    of_others = {name: given[node][name] for name, node in KNOWN_TO.items() if name in given[node]}
+    return of_others | recorded | wanted_now
+
+
+def names_node(file: Path | None, namespace: str, node: str) -> bool:
+    """Tell whether a ROS parameter file has a section for a node by its name, not for all nodes.
+
+    Parameters
+    ----------
+    file : path or None
+        The file, if there is one.
+    namespace : str
+        Namespace with a slash at either end.
+    node : str
+        The node, without the namespace.
+
+    Returns
+    -------
+    bool
+        Whether it has.
+
+    Raises
+    ------
+    ValueError
+        If it is no such file.
+    OSError
+        If it cannot be read.
+    """
+    return any(
+        pattern.endswith(node) and _matches(pattern, f'{namespace}{node}')
+        for pattern, _ in _sections(file)
+    )
 
 
 def changed_parameters(event: Any) -> tuple[str, dict[str, Any]]:
@@ -124,6 +182,18 @@ def changed_parameters(event: Any) -> tuple[str, dict[str, Any]]:
         for changed in event.changed_parameters
         if 0 < changed.value.type < len(fields)
     }
+
+
+def _sections(file: Path | None) -> Iterator[tuple[str, Any]]:
+    """Give the sections of a parameter file, each with the nodes that it is for."""
+    if file is None:
+        return
+    try:
+        document = yaml.safe_load(file.read_text())
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise ValueError(f'{file}: no YAML: {" ".join(str(error).split())}') from None
+    for pattern, section in document.items() if isinstance(document, dict) else ():
+        yield str(pattern), section
 
 
 def _matches(pattern: str, node: str) -> bool:

@@ -20,14 +20,19 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from tactile_push.bags import BagError, BagReader, BagWriter, Message, schema_text
+from tactile_push.bags import BagError, BagReader, BagWriter
 from tactile_push.replay.comparison import Comparison
 from tactile_push.replay.finger import INPUTS, OUTPUTS, Finger
+from tactile_push.replay.new_bag import copy, new_bag
 from tactile_push.replay.parameters import (
+    ByNode,
     changed_parameters,
+    names_node,
     read_config,
     recorded_parameters,
+    sensing_parameters,
 )
+from tactile_push.replay.sensing import TOPICS as OF_SENSING
 from tactile_push.stamps import epoch_of
 
 EVENTS = '/parameter_events'
@@ -42,12 +47,13 @@ def replay(
     out: str | os.PathLike[str] | None = None,
     progress: Callable[[int], None] = lambda count: None,
 ) -> list[Comparison]:
-    """Run a bag's readings through geometry and law again.
+    """Run a bag's readings through geometry, law and active sensing again.
 
     The readings go through the code that the nodes run, on the recorded stamps, in the recorded
     order, and without waiting: the result is the same every time, to the bit. Where nothing else
     is asked for and the bag has `contact_geometry/state` and `push_controller/state`, it is what
-    the nodes gave.
+    the nodes gave. The object is sensed if the parameters of `active_sensing` were recorded or the
+    file has a section for it.
 
     Parameters
     ----------
@@ -81,12 +87,7 @@ def replay(
     if not found:
         raise BagError(f'{bag.path}: nothing to replay, expected a topic tactile or contact')
     with ExitStack() as stack:
-        parameters = {}
-        for namespace in found:
-            given = recorded_parameters(bag.notes, namespace)
-            wanted = read_config(config, namespace) if config else {node: {} for node in given}
-            wanted['push_controller'].update(controller or {})
-            parameters[namespace] = {node: given[node] | wanted[node] for node in given}, wanted
+        parameters = {n: _parameters(bag, n, config, controller or {}) for n in found}
         begin = bag.start_time, epoch_of(bag.start_time // 10**9)
         for namespace, (given, wanted) in parameters.items():
             fingers[namespace] = Finger(
@@ -98,10 +99,13 @@ def replay(
                 bag.decode,
             )
         if out is not None:
-            writer = stack.enter_context(BagWriter(out))
-            _add_topics(writer, bag, found)
-            for key, text in bag.notes.items():
-                writer.note(key, text)
+            made = {
+                f'{namespace}{topic}': INPUTS[topic]
+                for namespace, finger in fingers.items()
+                for topic in OUTPUTS
+                if topic not in OF_SENSING or finger.comparison.sensed is not None
+            }
+            writer = stack.enter_context(new_bag(out, bag, made))
             for namespace, finger in fingers.items():
                 finger.write = partial(_write, writer, namespace)
         inputs = {f'{n}{topic}': (n, topic) for n in found for topic in INPUTS}
@@ -113,12 +117,12 @@ def replay(
                 namespace, topic = inputs[message.topic]
                 fingers[namespace].take(topic, message)
                 if topic not in OUTPUTS and out is not None:
-                    _copy(writer, message)
+                    copy(writer, message)
             else:
                 if message.topic == EVENTS:
                     _change(fingers, parameters, bag.decode(message))
                 if out is not None:
-                    _copy(writer, message)
+                    copy(writer, message)
         for finger in fingers.values():
             finger.finish()
     return [finger.comparison for finger in fingers.values()]
@@ -127,31 +131,35 @@ def replay(
 def _namespaces(bag: BagReader) -> dict[str, set[str]]:
     """Find the fingers, and the topics of each that can be replayed."""
     found: dict[str, set[str]] = {}
-    for name, topic in bag.topics.items():
+    for name in bag.topics:
+        for reading in READINGS:
+            if name.endswith(f'/{reading}') and bag.counts[name]:
+                found.setdefault(name.removesuffix(reading), set())
+    for namespace, topics in found.items():
         for known, type_name in INPUTS.items():
-            if name.endswith(f'/{known}') and bag.counts[name]:
-                if topic.type_name != type_name:
+            name = f'{namespace}{known}'
+            if name in bag.topics and bag.counts[name]:
+                if bag.topics[name].type_name != type_name:
                     raise BagError(
-                        f'{bag.path}: {name}: expected {type_name}, got {topic.type_name}'
+                        f'{bag.path}: {name}: expected {type_name}, '
+                        f'got {bag.topics[name].type_name}'
                     )
-                found.setdefault(name.removesuffix(known), set()).add(known)
-    return {n: topics for n, topics in found.items() if topics & READINGS}
+                topics.add(known)
+    return found
 
 
-def _add_topics(writer: BagWriter, bag: BagReader, found: Mapping[str, set[str]]) -> None:
-    for topic in bag.topics.values():
-        writer.add_topic(
-            topic.name,
-            topic.type_name,
-            qos=topic.qos,
-            type_hash=topic.type_hash,
-            definition=topic.definition,
-        )
-    for namespace in found:
-        for output in OUTPUTS:
-            name = f'{namespace}{output}'
-            if name not in bag.topics:
-                writer.add_topic(name, INPUTS[output], definition=schema_text(INPUTS[output]))
+def _parameters(
+    bag: BagReader, namespace: str, config: Path | None, controller: Mapping[str, Any]
+) -> tuple[ByNode, ByNode]:
+    """Give the parameters of a finger's nodes, and those of them that do not follow the bag."""
+    given = recorded_parameters(bag.notes, namespace)
+    wanted = read_config(config, namespace)
+    wanted['push_controller'].update(controller)
+    used = {node: given[node] | wanted[node] for node in given}
+    used['active_sensing'] = sensing_parameters(given, wanted)
+    if not (given['active_sensing'] or names_node(config, namespace, 'active_sensing')):
+        del used['active_sensing']
+    return used, wanted
 
 
 def _change(
@@ -170,7 +178,3 @@ def _change(
 
 def _write(writer: BagWriter, namespace: str, topic: str, data: bytes, log_time: int) -> None:
     writer.write(f'{namespace}{topic}', data, log_time, log_time)
-
-
-def _copy(writer: BagWriter, message: Message) -> None:
-    writer.write(message.topic, message.data, message.log_time, message.publish_time)

@@ -93,6 +93,23 @@ def test_the_new_bag_has_what_the_nodes_said_to_the_last_digit(name, tmp_path):
     assert main(['diff', str(DATA / name), str(tmp_path / 'out')]) == 0
 
 
+@pytest.mark.parametrize('name', BAGS)
+def test_commands_may_be_recorded_after_what_the_node_says_of_them(name, tmp_path):
+    with BagReader(DATA / name) as reader, BagWriter(tmp_path / 'bag') as writer:
+        for topic in reader.topics.values():
+            writer.add_topic(topic.name, topic.type_name, definition=topic.definition)
+        rows = []
+        for message in reader.messages():
+            later = 30_000_000 if message.topic == '/finger/cmd_vel' else 0
+            rows.append((message.log_time + later, message.topic, message.data))
+        for log_time, topic, data in sorted(rows, key=lambda row: row[0]):
+            writer.write(topic, data, log_time, log_time)
+        for key, text in reader.notes.items():
+            writer.note(key, text)
+    run(tmp_path / 'bag', out=tmp_path / 'out')
+    assert contents(tmp_path / 'out') == contents(tmp_path / 'bag')
+
+
 def test_a_change_of_a_command_is_found_out(tmp_path):
     run(DATA / 'block', controller={'kd': 5.0 + 1e-12}, out=tmp_path / 'out')
     assert main(['diff', str(DATA / 'block'), str(tmp_path / 'out')]) == 1

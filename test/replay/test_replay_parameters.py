@@ -18,8 +18,10 @@ import pytest
 
 from tactile_push.replay.parameters import (
     changed_parameters,
+    names_node,
     read_config,
     recorded_parameters,
+    sensing_parameters,
 )
 
 
@@ -61,6 +63,57 @@ def test_sections_are_for_whom_rcl_takes_them_to_be(tmp_path, section, namespace
     file.write_text(f'{section}:\n  ros__parameters:\n    kp: 0.07\n')
     values = read_config(file, namespace)
     assert values['push_controller'] == ({'kp': 0.07} if meant else {})
+
+
+@pytest.mark.parametrize(
+    ('section', 'named'),
+    [
+        ('active_sensing', True),
+        ('/**/active_sensing', True),
+        ('/left/active_sensing', True),
+        ('/right/active_sensing', False),
+        ('/**', False),
+        ('/left/*', False),
+        ('/left/push_controller', False),
+    ],
+)
+def test_node_is_named_by_its_name_alone(tmp_path, section, named):
+    file = tmp_path / 'object.yaml'
+    file.write_text(f'{section}:\n  ros__parameters:\n    edge: 0\n')
+    namespace = '/' if section == 'active_sensing' else '/left/'
+    assert names_node(file, namespace, 'active_sensing') == named
+    assert not names_node(None, namespace, 'active_sensing')
+
+
+def test_wanted_comes_before_recorded_and_that_before_what_other_nodes_know():
+    given = {
+        'push_controller': {'belt_speed': 0.006, 'kp': 0.05},
+        'contact_geometry': {'finger_radius': 0.01},
+        'active_sensing': {'finger_radius': 0.012, 'noise': 0.003},
+    }
+    wanted = {'push_controller': {'belt_speed': 0.9}, 'active_sensing': {'noise': 0.004}}
+    assert sensing_parameters(given, wanted) == {
+        'belt_speed': 0.006,
+        'finger_radius': 0.012,
+        'noise': 0.004,
+    }
+
+
+def test_wanted_outline_is_another_object():
+    given = {
+        'push_controller': {},
+        'contact_geometry': {},
+        'active_sensing': {'disk_radius': 0.03, 'edge': 5, 'noise': 0.003},
+    }
+    assert sensing_parameters(given, {'active_sensing': {'vertices': [0.1]}}) == {
+        'vertices': [0.1],
+        'noise': 0.003,
+    }
+    assert sensing_parameters(given, {'active_sensing': {'edge': 2}}) == {
+        'disk_radius': 0.03,
+        'edge': 2,
+        'noise': 0.003,
+    }
 
 
 @pytest.mark.parametrize(

@@ -66,6 +66,7 @@ def rig_bag(tmp_path_factory) -> Path:
         nodes.start('sensor_driver', {'device': device, **SIMULATED})
         nodes.start('contact_geometry', SIMULATED, config=config)
         nodes.start('push_controller', {'autostart': False, **SIMULATED}, config=config)
+        nodes.start('active_sensing', SIMULATED, config=config)
         experiment = {'bag': str(folder / 'bag'), 'steps': STEPS, **SIMULATED}
         assert nodes.start('experiment', experiment).wait(2 * PATIENCE) == 0
     return folder / 'bag'

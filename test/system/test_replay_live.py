@@ -35,6 +35,7 @@ def test_bag_of_an_eventful_run_replays_to_the_bit(
     nodes: NodeProcesses, observer: Observer, tmp_path: Path
 ):
     states = observer.collect(JointState, 'push_controller/state')
+    sensed = observer.collect(JointState, 'active_sensing/state')
     device = {'device': str(tmp_path / 'sensor')}
     bag = tmp_path / 'bag'
 
@@ -52,9 +53,17 @@ def test_bag_of_an_eventful_run_replays_to_the_bit(
     nodes.start('sensor_driver', device)
     nodes.start('contact_geometry', config=CONFIG / 'block.yaml')
     nodes.start('push_controller', config=CONFIG / 'block.yaml')
+    nodes.start('active_sensing', config=CONFIG / 'block.yaml')
     wait_for_ticks(5, PUSHING)
+    observer.wait_for(lambda: sensed, 'the object to be sensed')
     recorder = nodes.start('bag_recorder', {'output': str(bag)})
-    hearing = {'push_controller/state': 2, 'contact_geometry/state': 1}  # the observer, too
+    # The observer hears two of them, too.
+    hearing = {
+        'push_controller/state': 3,
+        'contact_geometry/state': 1,
+        'active_sensing/state': 2,
+        'object_pose': 1,
+    }
     observer.wait_for(
         lambda: all(observer.node.count_subscribers(t) >= n for t, n in hearing.items()),
         'the recorder to listen',
@@ -95,4 +104,6 @@ def test_bag_of_an_eventful_run_replays_to_the_bit(
     # Until recorder and nodes have found one another nothing can be followed.
     assert len(comparison.ticks) > 40
     assert not comparison.different()
+    # What had been heard before the recording counts until the contact is lost.
+    assert 20 < len(comparison.sensed) < len(comparison.ticks)
     assert main(['diff', str(bag), str(tmp_path / 'again')]) == 0

@@ -1,0 +1,190 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""`tactile_push estimate`: what a bag tells about the object that was pushed."""
+
+import argparse
+import math
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tactile_push.cli.arguments import Commands, number
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from tactile_push.replay import ObjectFigures
+
+
+def add(commands: Commands) -> None:
+    """Add the command.
+
+    Parameters
+    ----------
+    commands : argparse subparsers
+        Where it belongs.
+    """
+    estimate = commands.add_parser(
+        'estimate',
+        help='say what the pushes in a bag tell about the object',
+        description='Runs active sensing over the control periods that were recorded, and says '
+        'where along the edge the finger was, how sure that is and from when on, and when the '
+        'readings contradicted the object. Exit status: 0 done, 1 nothing was ever known of an '
+        'object, 2 bad input.',
+    )
+    option = estimate.add_argument
+    option('bag', type=Path, metavar='BAG', help='folder of a bag, or one of its files')
+    option(
+        '--config',
+        type=Path,
+        metavar='FILE',
+        help='ROS parameter file with values for active_sensing to use instead of the recorded '
+        'ones, such as the outline',
+    )
+    option(
+        '--edge',
+        type=_edge,
+        metavar='N',
+        help='the pushed edge, 0 from the first corner to the second; -1 if it is not known '
+        '(default: as recorded)',
+    )
+    option(
+        '--noise-deg',
+        type=number('degrees from 0.001 to 28', 0.001, 28.0),
+        metavar='DEG',
+        help='standard deviation of the readings (default: as recorded)',
+    )
+    option(
+        '-o',
+        '--out',
+        type=Path,
+        metavar='DIR',
+        help='write a bag, in which what was estimated replaces what was recorded of it',
+    )
+    option(
+        '--json',
+        metavar='FILE|-',
+        help='write all of it and every control period as one JSON object in SI units; - prints it '
+        'instead of the summary',
+    )
+    estimate.set_defaults(run=_estimate)
+
+
+def _edge(text: str) -> int:
+    """Read the number of an edge."""
+    try:
+        edge = int(text)
+    except ValueError:
+        edge = -2
+    if edge < -1:
+        raise argparse.ArgumentTypeError(f'expected a whole number from -1 on, got {text}')
+    return edge
+
+
+def _estimate(options: argparse.Namespace) -> int:
+    from tactile_push.bags import BagError, BagReader
+    from tactile_push.cli.bags import reading, warner, write_json
+    from tactile_push.replay import estimate
+
+    warn = warner('estimate')
+    sensing: dict[str, Any] = {}
+    if options.edge is not None:
+        sensing['edge'] = options.edge
+    if options.noise_deg is not None:
+        sensing['noise'] = math.radians(options.noise_deg)
+    try:
+        with (
+            BagReader(options.bag, warn) as bag,
+            reading(sum(bag.counts.values())) as progress,
+        ):
+            results = estimate(
+                bag, config=options.config, sensing=sensing, out=options.out, progress=progress
+            )
+        if options.json is not None:
+            write_json(options.json, {'fingers': [_as_json(result) for result in results]})
+    except (BagError, ValueError) as error:
+        print(f'tactile_push estimate: {error}', file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f'tactile_push estimate: {error.filename}: {error.strerror}', file=sys.stderr)
+        return 2
+    for result in results:
+        if not result.object_told:
+            warn(f"{_node(result)} was not recorded: taken for the paper's block")
+    if options.json != '-':
+        _print(results)
+    return 0 if all(result.values is not None for result in results) else 1
+
+
+def _node(result: 'ObjectFigures') -> str:
+    return f'/{result.finger}/active_sensing' if result.finger else '/active_sensing'
+
+
+def _as_json(result: 'ObjectFigures') -> dict[str, Any]:
+    from tactile_push.cli.bags import plain
+
+    return plain({**asdict(result), 'ticks': [tick.as_json() for tick in result.ticks]})
+
+
+def _print(results: 'list[ObjectFigures]') -> None:
+    from tactile_push.cli.bags import wide_console
+
+    console = wide_console()
+    for result in results:
+        _print_object(console, result)
+
+
+def _print_object(console: 'Console', result: 'ObjectFigures') -> None:
+    from rich.markup import escape
+    from rich.table import Table
+
+    from tactile_push.bags.merit import TRANSLATING
+    from tactile_push.cli.bags import bounded
+
+    table = Table(title=escape(_node(result)), title_justify='left')
+    table.add_column('')
+    table.add_column('this bag', justify='right')
+    table.add_column('paper', justify='right', style='dim')
+
+    def row(label: str, value: str, of_paper: str = '') -> None:
+        table.add_row(escape(label), value, of_paper)
+
+    row('control periods', str(len(result.ticks)))
+    row('readings', str(result.readings))
+    values = result.values
+    if values is None:
+        row('d', 'never known')
+    else:
+        row('known last at [s]', f'{result.at:.3f}')
+        row('d [mm]', bounded(values, 'd', 1e3, 2))
+        row('c [mm]', bounded(values, 'c', 1e3, 1))
+        row('μ_c', bounded(values, 'mu_c', 1.0, 2))
+    if values is not None and math.isfinite(values['edge']):  # of no disk, the d of which is 0
+        row('edge', f'{values["edge"]:.0f} ({values["edge_weight"]:.0%})')
+        step = 'never' if result.known_step is None else str(result.known_step)
+        row('d known to 2 mm from step', step, str(TRANSLATING))
+    if result.inside is not None and result.inside_guaranteed is not None:
+        row('control periods with a true d', str(result.compared))
+        row('of them inside the 95 % interval', f'{result.inside:.1%}')
+        row('of them within the guaranteed bounds', f'{result.inside_guaranteed:.1%}')
+    console.print(table)
+    for one in result.contradictions:
+        end = '' if one.ended else ', to the end of the bag'
+        console.print(
+            f'contradiction at {one.at:.3f} s for {one.duration:.3f} s{end}: {one.reason}',
+            highlight=False,
+        )
+    for forgotten in result.forgotten:
+        console.print(f'all forgotten at {forgotten.at:.3f} s: {forgotten.reason}', highlight=False)

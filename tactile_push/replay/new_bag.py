@@ -1,0 +1,73 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""A bag like another one, in which some topics are made again."""
+
+import os
+from collections.abc import Mapping
+
+from tactile_push.bags import BagReader, BagWriter, Message, schema_text
+
+
+def new_bag(
+    out: str | os.PathLike[str], bag: BagReader, made_again: Mapping[str, str]
+) -> BagWriter:
+    """Begin a bag with the topics and notes of another one.
+
+    Parameters
+    ----------
+    out : path
+        Folder of the bag to write, not there yet.
+    bag : BagReader
+        The other one.
+    made_again : mapping of str to str
+        Types of topics that the bag shall have even if the other one does not, by full name.
+
+    Returns
+    -------
+    BagWriter
+        The bag, without messages.
+
+    Raises
+    ------
+    OSError
+        If it cannot be made.
+    """
+    writer = BagWriter(out)
+    for topic in bag.topics.values():
+        writer.add_topic(
+            topic.name,
+            topic.type_name,
+            qos=topic.qos,
+            type_hash=topic.type_hash,
+            definition=topic.definition,
+        )
+    for name, type_name in made_again.items():
+        if name not in bag.topics:
+            writer.add_topic(name, type_name, definition=schema_text(type_name))
+    for key, text in bag.notes.items():
+        writer.note(key, text)
+    return writer
+
+
+def copy(writer: BagWriter, message: Message) -> None:
+    """Write a message as it lies in another bag.
+
+    Parameters
+    ----------
+    writer : BagWriter
+        The bag to write.
+    message : Message
+        The message.
+    """
+    writer.write(message.topic, message.data, message.log_time, message.publish_time)

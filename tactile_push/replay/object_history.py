@@ -1,0 +1,244 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""From what single control periods tell of an object to what the whole bag does."""
+
+import math
+from array import array
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from tactile_push.bags.known import known_step
+from tactile_push.control import PUSHING
+from tactile_push.estimation import CONTRADICTIONS
+from tactile_push.replay.comparison import SensedTick
+from tactile_push.replay.geometry import Stamp
+from tactile_push.replay.sensing import Sensed
+
+BOUNDS = ('d_lower', 'd_upper', 'd_least', 'd_most')
+ROUNDING = 1e-9  # of a length [m]
+
+
+@dataclass(frozen=True)
+class Contradiction:
+    """A time for which the readings contradicted the object.
+
+    Parameters
+    ----------
+    reason : str
+        Why: one of `CONTRADICTIONS`.
+    at : float
+        When it began [s], from the start of the bag.
+    duration : float
+        How long it took [s]; as far as is recorded, if it did not end.
+    ended : bool
+        Whether it ended in the bag.
+    """
+
+    reason: str
+    at: float
+    duration: float
+    ended: bool
+
+
+@dataclass(frozen=True)
+class Forgotten:
+    """A moment at which everything was forgotten.
+
+    Parameters
+    ----------
+    reason : str
+        Why.
+    at : float
+        When [s], from the start of the bag.
+    """
+
+    reason: str
+    at: float
+
+
+@dataclass(frozen=True)
+class ObjectFigures:
+    """What a bag tells about an object.
+
+    Parameters
+    ----------
+    finger : str
+        Namespace of the finger that pushed it, '' for the root.
+    object_told : bool
+        Whether somebody said what was pushed; otherwise it was taken for the paper's block.
+    ticks : list of SensedTick
+        What each control period told of d.
+    readings : int
+        Readings that were taken.
+    values : dict of str to float or None
+        The numbers of `active_sensing/state` of the last control period after which something was
+        known, SI units; None if nothing ever was.
+    at : float or None
+        When that was [s], from the start of the bag.
+    known_step : int or None
+        Step from which on d was known to 2 mm for good, see `tactile_push.bags.known`.
+    contradictions : list of Contradiction
+        When the readings contradicted the object.
+    forgotten : list of Forgotten
+        When everything was forgotten.
+    compared : int
+        Control periods after which something was known and of which a simulator told the true d.
+    inside, inside_guaranteed : float or None
+        Share of them in which it was in the 95 % interval and in the guaranteed one.
+    """
+
+    finger: str
+    object_told: bool
+    ticks: list[SensedTick]
+    readings: int
+    values: dict[str, float] | None
+    at: float | None
+    known_step: int | None
+    contradictions: list[Contradiction]
+    forgotten: list[Forgotten]
+    compared: int
+    inside: float | None
+    inside_guaranteed: float | None
+
+
+class ObjectHistory:
+    """Takes what one control period after the other tells.
+
+    Parameters
+    ----------
+    finger : str
+        Namespace of the finger, '' for the root.
+    start : int
+        First log time of the bag [ns].
+    object_told : bool
+        Whether somebody said what is pushed.
+    """
+
+    def __init__(self, finger: str, start: int, object_told: bool) -> None:
+        self._finger = finger
+        self._start = start
+        self._object_told = object_told
+        self._ticks: list[SensedTick] = []
+        self._ages = array('d')  # of the reading that each one tells of [s]; NaN if unknown
+        self._steps = array('d')  # when the law acted [s]
+        self._readings = 0
+        self._last: tuple[float, dict[str, float]] | None = None
+        self._contradictions: list[Contradiction] = []
+        self._since: tuple[float, int] | None = None  # a contradiction that lasts
+        self._forgotten: list[Forgotten] = []
+        self._true_at, self._true_d = array('d'), array('d')
+
+    def add(self, stamp: Stamp, state: str, sensed: Sensed) -> None:
+        """Take a control period.
+
+        Parameters
+        ----------
+        stamp : tuple of int
+            When it was [s, ns].
+        state : str
+            What the controller was doing: one of `STATES`.
+        sensed : Sensed
+            What it told.
+        """
+        at, values = self._seconds(stamp), sensed.values
+        known = math.isfinite(values['d'])
+        self._ticks.append(SensedTick.of(at, values))
+        self._ages.append(values['age'] if known else math.nan)
+        if state == PUSHING:
+            self._steps.append(at)
+        self._readings += sensed.took
+        if known:
+            self._last = at, values
+        if sensed.forgot:
+            self._forgotten.append(Forgotten(sensed.forgot, at))
+        contradiction = int(values['contradiction'])
+        if self._since is not None and contradiction != self._since[1]:
+            self._close_contradiction(at, ended=True)
+        if contradiction and self._since is None:
+            self._since = at, contradiction
+
+    def truth(self, stamp: Stamp, values: Mapping[str, float]) -> None:
+        """Take what a simulator told.
+
+        Parameters
+        ----------
+        stamp : tuple of int
+            When it was so [s, ns].
+        values : mapping of str to float
+            Its numbers by name.
+        """
+        if 'd' in values:
+            self._true_at.append(self._seconds(stamp))
+            self._true_d.append(values['d'])
+
+    def figures(self) -> ObjectFigures:
+        """Evaluate what was taken; no more is taken after that.
+
+        Returns
+        -------
+        ObjectFigures
+            What it tells.
+        """
+        if self._since is not None:
+            self._close_contradiction(self._ticks[-1].time, ended=False)
+        at, values = self._last or (None, None)
+        compared, inside, inside_guaranteed = self._compare()
+        return ObjectFigures(
+            self._finger,
+            self._object_told,
+            self._ticks,
+            self._readings,
+            values,
+            at,
+            known_step(
+                self._steps,
+                (tick.time for tick in self._ticks),
+                (tick.d_upper - tick.d_lower for tick in self._ticks),
+            ),
+            self._contradictions,
+            self._forgotten,
+            compared,
+            inside,
+            inside_guaranteed,
+        )
+
+    def _compare(self) -> tuple[int, float | None, float | None]:
+        """Compare with the truth at the moments of the readings."""
+        if not len(self._true_at):
+            return 0, None, None
+        read = np.array([tick.time for tick in self._ticks]) - np.array(self._ages)
+        order = np.argsort(self._true_at, kind='stable')
+        at, d = np.array(self._true_at)[order], np.array(self._true_d)[order]
+        truth = np.interp(read, at, d, math.nan, math.nan)
+        there = np.isfinite(truth)
+        if not there.any():
+            return 0, None, None
+        lower, upper, least, most = (
+            np.array([getattr(tick, name) for tick in self._ticks])[there] for name in BOUNDS
+        )
+        truth = truth[there]
+        inside = np.mean((lower - ROUNDING <= truth) & (truth <= upper + ROUNDING))
+        guaranteed = np.mean((least - ROUNDING <= truth) & (truth <= most + ROUNDING))
+        return len(truth), float(inside), float(guaranteed)
+
+    def _close_contradiction(self, end: float, *, ended: bool) -> None:
+        assert self._since is not None
+        at, kind = self._since
+        self._contradictions.append(Contradiction(CONTRADICTIONS[kind], at, end - at, ended))
+        self._since = None
+
+    def _seconds(self, stamp: Stamp) -> float:
+        return (stamp[0] * 10**9 + stamp[1] - self._start) * 1e-9

@@ -1,0 +1,56 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""What an experiment waits for before it starts the controller."""
+
+from pathlib import Path
+
+from geometry_msgs.msg import PoseStamped
+from live import CONFIG, PATIENCE, Observer
+from sensor_msgs.msg import JointState
+
+from tactile_push.bags.states import read_states
+from tactile_push.processes import NodeProcesses
+
+
+def test_controller_starts_when_the_object_is_sensed(
+    nodes: NodeProcesses, observer: Observer, tmp_path: Path
+):
+    contacts = observer.collect(PoseStamped, 'contact')
+    states = observer.collect(JointState, 'push_controller/state')
+    config, simulated = CONFIG / 'block.yaml', {'use_sim_time': True}
+    device, bag = {'device': str(tmp_path / 'sensor')}, tmp_path / 'bag'
+    timing = {'sensor_rate': 20.0, 'publish_clock': True, 'real_time_factor': 20.0}
+    nodes.start('sim_plant', {**device, **timing}, config=config)
+    nodes.start('sensor_driver', {**device, **simulated})
+    nodes.start('contact_geometry', simulated, config=config)
+    nodes.start('push_controller', {'autostart': False, **simulated}, config=config)
+    experiment = nodes.start('experiment', {'bag': str(bag), 'steps': 20, **simulated})
+    others = {'contact': 3, 'push_controller/state': 2}  # the observer, too
+    observer.wait_for(
+        lambda: (
+            contacts and all(observer.node.count_subscribers(t) >= n for t, n in others.items())
+        ),
+        'the others to hear each other',
+    )
+    seen = len(contacts)
+    observer.wait_for(lambda: len(contacts) >= seen + 100, 'time to go by')
+    assert states == []
+    nodes.start('active_sensing', simulated, config=config)
+    assert experiment.wait(PATIENCE) == 0
+    pushed = read_states(bag, '/push_controller/state')
+    sensed = read_states(bag, '/active_sensing/state')
+    assert len(pushed['stamp']) > 20
+    # When both have found one another only they know; a look lasts longer than that takes.
+    assert sensed['stamp'][0] <= pushed['stamp'][2]
+    assert sensed['readings'][0] == 1.0
