@@ -25,6 +25,7 @@ from pathlib import Path
 
 import numpy as np
 
+from tactile_push.bags.known import known_step
 from tactile_push.bags.states import read_states
 from tactile_push.configuration import config_file
 from tactile_push.control import PUSHING, STATES, settle_step
@@ -74,7 +75,13 @@ CASES = (
         math.radians(-10.0),
         math.radians(3.0),
         0.02375,
-        {'settled': '173', 'theta': '-10.4 to -8.9', 'phi': '80.2 to 85.8', 'd': '0.3 to 2.1'},
+        {
+            'settled': '173',
+            'theta': '-10.4 to -8.9',
+            'phi': '80.2 to 85.8',
+            'd': '0.3 to 2.1',
+            'known': '400',
+        },
     ),
     RigCase(
         'disk',
@@ -101,6 +108,9 @@ class RigResult:
         True contact at the end [m].
     d_lower, d_upper : float
         Bounds on d by (17), from all steps from `TRANSLATING` on [m].
+    known_step : int or None
+        Step from which on active sensing knows d to 2 mm; of the disk, d of which is 0 by its
+        roundness, the first one that it heard of.
     theta_range, phi_range : tuple of float
         Least and greatest angle from step `TRANSLATING` on [rad].
     ticks_lost : int
@@ -115,6 +125,7 @@ class RigResult:
     d_final: float
     d_lower: float
     d_upper: float
+    known_step: int | None
     theta_range: tuple[float, float]
     phi_range: tuple[float, float]
     ticks_lost: int
@@ -153,10 +164,11 @@ def run_demo(out: Path, progress: Callable[[str, int], None]) -> dict[str, RigRe
     panels = {}
     for case in CASES:
         wall_seconds = _run_rig(case, out / case.name, partial(progress, case.name))
-        theta, phi, ticks_lost = _law_history(out / case.name)
-        result = _evaluate(case, out / case.name, theta, phi, ticks_lost, wall_seconds)
+        steps, ticks_lost = _law_history(out / case.name)
+        result = _evaluate(case, out / case.name, steps, ticks_lost, wall_seconds)
         results[case.name] = result
-        panels[case.title] = (theta, phi, case.theta_desired, case.band, result.settle_step)
+        history = steps['theta'], steps['phi'], case.theta_desired, case.band, result.settle_step
+        panels[case.title] = history
     plot_history(panels, [out / 'history.png'])
     return results
 
@@ -185,6 +197,7 @@ def _run_rig(case: RigCase, bag: Path, progress: Callable[[int], None]) -> float
             nodes.start('sensor_driver', {'device': device, **simulated})
             nodes.start('contact_geometry', simulated, config=config)
             nodes.start('push_controller', {'autostart': False, **simulated}, config=config)
+            nodes.start('active_sensing', simulated, config=config)
             nodes.start('experiment', {'bag': str(bag), 'steps': STEPS, **simulated})
             _follow(nodes, progress)
     return time.monotonic() - start
@@ -210,20 +223,22 @@ def _follow(nodes: NodeProcesses, progress: Callable[[int], None]) -> None:
             raise DemoError(f'no progress for {STALL_TIMEOUT:.0f} s after step {steps}')
 
 
-def _law_history(bag: Path) -> tuple[np.ndarray, np.ndarray, int]:
+def _law_history(bag: Path) -> tuple[dict[str, np.ndarray], int]:
     state = read_states(bag, '/push_controller/state')
     pushing = state['state'] == STATES.index(PUSHING)
-    return state['theta'][pushing], state['phi'][pushing], int(state['ticks_lost'][-1])
+    steps = {name: values[pushing] for name, values in state.items()}
+    return steps, int(state['ticks_lost'][-1])
 
 
 def _evaluate(
     case: RigCase,
     bag: Path,
-    theta: np.ndarray,
-    phi: np.ndarray,
+    steps: dict[str, np.ndarray],
     ticks_lost: int,
     wall_seconds: float,
 ) -> RigResult:
+    theta, phi = steps['theta'], steps['phi']
+    sensed = read_states(bag, '/active_sensing/state')
     bounds = [
         contact_of_translation(theta_k, phi_k, case.l)
         for theta_k, phi_k in zip(theta[TRANSLATING:], phi[TRANSLATING:], strict=True)
@@ -235,6 +250,9 @@ def _evaluate(
         d_final=float(read_states(bag, '/ground_truth/state')['d'][-1]),
         d_lower=min(bounds),
         d_upper=max(bounds),
+        known_step=known_step(
+            steps['stamp'], sensed['stamp'], sensed['d_upper'] - sensed['d_lower']
+        ),
         theta_range=(float(theta[TRANSLATING:].min()), float(theta[TRANSLATING:].max())),
         phi_range=(float(phi[TRANSLATING:].min()), float(phi[TRANSLATING:].max())),
         ticks_lost=ticks_lost,

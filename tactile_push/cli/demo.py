@@ -102,6 +102,9 @@ def _print_demo(results: 'dict[str, RigResult]', out: Path) -> None:
     def degrees(bounds: tuple[float, float]) -> str:
         return f'{math.degrees(bounds[0]):.1f} to {math.degrees(bounds[1]):.1f}'
 
+    def step(found: int | None) -> str:
+        return 'never' if found is None else str(found)
+
     def row(label: str, key: str, values: list[str]) -> None:
         papers = [case.paper.get(key, '') for case in CASES]
         table.add_row(
@@ -113,7 +116,7 @@ def _print_demo(results: 'dict[str, RigResult]', out: Path) -> None:
     row(
         f'within {bands} of θ_d from step',
         'settled',
-        ['never' if run.settle_step is None else str(run.settle_step) for run in runs],
+        [step(run.settle_step) for run in runs],
     )
     row(f'θ from step {TRANSLATING} on [°]', 'theta', [degrees(run.theta_range) for run in runs])
     row(f'φ from step {TRANSLATING} on [°]', 'phi', [degrees(run.phi_range) for run in runs])
@@ -121,6 +124,15 @@ def _print_demo(results: 'dict[str, RigResult]', out: Path) -> None:
         'so d by (17) [mm]',
         'd',
         [f'{1e3 * run.d_lower:.2f} to {1e3 * run.d_upper:.2f}' for run in runs],
+    )
+    row(
+        'd known to 2 mm from step',
+        'known',
+        [
+            # Of the disk d is 0 by its roundness.
+            step(run.known_step) if 'known' in case.paper else ''
+            for case, run in zip(CASES, runs, strict=True)
+        ],
     )
     row('true d at the end [mm]', '', [f'{1e3 * run.d_final:.2f}' for run in runs])
     row('control ticks lost', '', [str(run.ticks_lost) for run in runs])

@@ -46,6 +46,8 @@ SERIES = {
     'd': (MILLIMETRES, 0.0, 4),
     'd_lower': (MILLIMETRES, 0.0, 4),
     'd_upper': (MILLIMETRES, 0.0, 4),
+    'd_least': (MILLIMETRES, 0.0, 4),
+    'd_most': (MILLIMETRES, 0.0, 4),
     'd_true': (MILLIMETRES, 0.0, 4),
     'silence': (SECONDS, 0.0, 4),
     'interval': (SECONDS, 0.0, 4),

@@ -8,7 +8,8 @@ const GAP = 36; // between panels, where the names of the lines stand
 const PRINT_WIDTH = 690; // of A4 and Letter less their margins
 
 // What the panels show: key of the series, name, colour, the rest of the line's look, and what
-// the legend calls it if not by its name.
+// the legend calls it if not by its name. A panel may have series that have to be seen, while others
+// may run out of it.
 const PANELS = [
   { title: 'angle [°]', of: '', unit: '°', digits: 1, lines: [
     ['phi', 'φ − 90°', 'orange', { width: 2.5 }],
@@ -19,9 +20,11 @@ const PANELS = [
     ['v_x_true', 'finger', 'orange', { width: 2.5 }],
     ['v_x', 'commanded', 'blue', { width: 1.5, shape: 'hv' }],
   ] },
-  { title: 'd [mm]', of: 'd ', unit: ' mm', digits: 2, lines: [
-    ['d_lower', 'at least', 'blue', { width: 0.5 }],
-    ['d_upper', 'at most', 'blue', { width: 0.5 }, 'bounds'],
+  { title: 'd [mm]', of: 'd ', unit: ' mm', digits: 2, seen: ['d', 'd_true'], lines: [
+    ['d_least', 'guaranteed from', 'blue', { width: 0 }],
+    ['d_most', 'guaranteed to', 'blue', { width: 0 }, 'guaranteed'],
+    ['d_lower', '95 % from', 'blue', { width: 0.5 }],
+    ['d_upper', '95 % to', 'blue', { width: 0.5 }, '95 %'],
     ['d', 'estimated', 'blue', { width: 1.5 }],
     ['d_true', 'true', 'green', { width: 1.5 }],
   ] },
@@ -30,6 +33,9 @@ const PANELS = [
     ['silence', 'contact', 'blue', { width: 1.5 }],
   ] },
 ];
+// Bounds: the band between two lines, by the upper one.
+const BANDS = { d_most: 'faint', d_upper: 'band' };
+const FIRST_OF_BANDS = ['d_least', 'd_lower'];
 const LEVELS = ['error', 'warning', 'note'];
 
 for (const panel of PANELS) panel.lines = panel.lines.filter(([key]) => key in series);
@@ -51,16 +57,27 @@ function lineTraces() {
     type: 'scatter',
     mode: 'lines',
     name: short ?? name,
-    showlegend: key !== 'd_lower',
+    showlegend: !FIRST_OF_BANDS.includes(key),
     x: series[key].time,
     y: series[key].values,
     yaxis: axis('y', row),
     legend: axis('legend', row),
     line: { color: color(tint), simplify: false, ...look },
-    fill: key === 'd_upper' ? 'tonexty' : 'none',
-    fillcolor: color('band'),
+    fill: key in BANDS ? 'tonexty' : 'none',
+    fillcolor: color(BANDS[key] ?? 'band'),
     hovertemplate: `%{y:.${panel.digits}f}${panel.unit}<extra>${panel.of}${name}</extra>`,
   })));
+}
+
+// The range of a panel's axis: what has to be seen with room around it. Before anything is known
+// of d its bounds are as wide as the object.
+function seenRange({ seen = [] }) {
+  if (!(seen[0] in series)) return undefined;
+  const values = seen.flatMap((key) => series[key]?.values ?? []).filter((value) => value !== null);
+  if (!values.length) return undefined;
+  const [low, high] = [Math.min(...values), Math.max(...values)];
+  const room = Math.max(2, (high - low) / 3);
+  return [low - room, high + room];
 }
 
 function episodeTraces() {
@@ -135,6 +152,7 @@ function layout() {
       fixedrange: true,
       title: { text: row < panels.length ? panels[row].title : '', standoff: 4 },
       nticks: 6,
+      range: row < panels.length ? seenRange(panels[row]) : undefined,
     };
     made[axis('legend', row)] = {
       orientation: 'h', x: 0, xanchor: 'left', y: domain[1], yanchor: 'bottom', bgcolor: 'rgba(0,0,0,0)',

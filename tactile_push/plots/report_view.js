@@ -77,7 +77,7 @@ function prepareView() {
     [true, 'green', 'dashed', 'pushed edge or tangent, θ'],
     [scene.mu_c !== null, 'warning', 'area', 'friction cone'],
     [scene.outline.length, 'text', '', 'object and its centre of mass (simulator)'],
-    ['estimate_x' in series, 'green', '', '× centre of mass, estimated'],
+    [frames.estimate_x.some((x) => x !== null), 'green', '', '× centre of mass, estimated'],
   ];
   for (const [there, tint, look, text] of entries) {
     if (!there) continue;

@@ -17,8 +17,10 @@ import math
 from collections import Counter
 from collections.abc import Mapping
 
+from tactile_push.bags.known import KNOWN, known_step
 from tactile_push.bags.merit import PushFigures, PushHistory
 from tactile_push.bags.paper import Range, paper_figures
+from tactile_push.control import PUSHING, STATES
 from tactile_push.report.reading import Table
 
 BAND = math.radians(3.0)  # how near to its desired value theta counts as settled [rad]
@@ -30,13 +32,15 @@ Row = tuple[str, str, str]
 """What, its value, the paper's."""
 
 
-def outcome_of(ticks: Table, plant: Mapping[str, object]) -> list[Row]:
+def outcome_of(ticks: Table, sensing: Table, plant: Mapping[str, object]) -> list[Row]:
     """Give the figures of merit.
 
     Parameters
     ----------
     ticks : dict
         The columns of `push_controller/state`; empty if the bag does not have it.
+    sensing : dict
+        Those of `active_sensing/state`.
     plant : mapping of str to object
         The parameters of `sim_plant`, as far as they are known.
 
@@ -55,10 +59,22 @@ def outcome_of(ticks: Table, plant: Mapping[str, object]) -> list[Row]:
     names = [name for name in ticks if name != 'time']
     for time, *values in zip(ticks['time'], *(ticks[name] for name in names), strict=True):
         history.add(float(time), float(time), dict(zip(names, map(float, values), strict=True)))
-    return _rows(history.figures())
+    return _rows(history.figures(), _known(ticks, sensing))
 
 
-def _rows(push: PushFigures) -> list[Row]:
+def _known(ticks: Table, sensing: Table) -> str | None:
+    """Tell from which step on d is known; None if that is not recorded or d is 0 by roundness."""
+    if 'state' not in ticks or not {'d_lower', 'd_upper'} <= sensing.keys():
+        return None
+    widths = sensing['d_upper'] - sensing['d_lower']
+    if not widths.any():
+        return None
+    steps = ticks['time'][ticks['state'] == STATES.index(PUSHING)]
+    step = known_step(steps, sensing['time'], widths)
+    return 'never' if step is None else f'{step:,}'
+
+
+def _rows(push: PushFigures, known: str | None) -> list[Row]:
     paper = push.paper
     theta, phi, d = (paper.theta_range, paper.phi_range, paper.d_range) if paper else (None,) * 3
     since = f'from step {push.ranges_from}'
@@ -73,6 +89,7 @@ def _rows(push: PushFigures) -> list[Row]:
         _range(f'θ {since} [°]', push.theta_range, theta, DEGREES, 1),
         _range(f'φ {since} [°]', push.phi_range, phi, DEGREES, 1),
         _range('so d by (17) [mm]', push.d_range, d, MILLIMETRES, 2),
+        _known_row(known, paper.known_step if paper else None),
         _range('v_x [mm/s]', push.v_x_range, None, MILLIMETRES, 2),
         _share('steps with φ at its bound', push.saturated_share),
         _share('steps with v_x at its bound', push.limited_share),
@@ -82,6 +99,11 @@ def _rows(push: PushFigures) -> list[Row]:
     reasons = Counter(stop.reason for stop in push.stops)
     stops = ', '.join(f'{reason} {count}×' for reason, count in reasons.items())
     return [*(row for row in rows if row is not None), ('stops', stops or 'none', '')]
+
+
+def _known_row(known: str | None, paper: int | None) -> Row | None:
+    what = f'd known to {KNOWN * MILLIMETRES:g} mm from step'
+    return None if known is None else (what, known, '' if paper is None else str(paper))
 
 
 def _range(

@@ -48,7 +48,7 @@ NAMES = {
     STATE: {*FIELDS, 'finger_x'},
     TRUTH: {'theta', 'phi', 'd', 'v_x', 'finger_x', 'belt_travel'},
     READINGS: {'refusal'},
-    SENSING: {'d', 'd_lower', 'd_upper'},
+    SENSING: {'d', 'd_lower', 'd_upper', 'd_least', 'd_most', 'contradiction'},
     TACTILE: set(),
 }
 DIAGNOSTICS, DIAGNOSTICS_TYPE = '/diagnostics', 'diagnostic_msgs/msg/DiagnosticArray'

@@ -21,6 +21,7 @@ import numpy as np
 
 from tactile_push.bags import BagReader
 from tactile_push.control import INACTIVE, STATES, STOP_REASONS, STOPPED, WAITING
+from tactile_push.estimation import CONTRADICTIONS
 from tactile_push.plots.report_data import ERROR, NOTE, WARNING, Episode, Run, Series
 from tactile_push.plots.report_episodes import Label, episodes, joined
 from tactile_push.report.outcome import outcome_of
@@ -52,6 +53,8 @@ SOURCES = {
     'd': ((SENSING, 'd'),),
     'd_lower': ((SENSING, 'd_lower'),),
     'd_upper': ((SENSING, 'd_upper'),),
+    'd_least': ((SENSING, 'd_least'),),
+    'd_most': ((SENSING, 'd_most'),),
     'd_true': ((TRUTH, 'd'),),
     'silence': ((STATE, 'silence'),),
     'finger_x': ((STATE, 'finger_x'), (TRUTH, 'finger_x')),
@@ -127,7 +130,7 @@ def read_run(bag: BagReader, progress: Callable[[int], None] = lambda done: None
         episodes=joined(_episodes(tables, statuses), 0.0, duration),
         scene=scene_of(plant, tables),
         facts=_facts(bag, duration),
-        outcome=outcome_of(tables.get(STATE, {}), plant or {}),
+        outcome=outcome_of(tables.get(STATE, {}), tables.get(SENSING, {}), plant or {}),
         tables=_details(bag, parameters),
         warnings=[f'not shown: the topics in {names}'] if others else [],
     )
@@ -163,7 +166,7 @@ def _series(tables: Mapping[str, Table]) -> dict[str, Series]:
 
 
 def _episodes(tables: Mapping[str, Table], statuses: Statuses) -> list[Episode]:
-    ticks, readings = tables.get(STATE, {}), tables.get(READINGS, {})
+    ticks, readings, sensing = (tables.get(topic, {}) for topic in (STATE, READINGS, SENSING))
     found = []
     if {'state', 'stop_reason'} <= ticks.keys():
         labels = [
@@ -180,6 +183,9 @@ def _episodes(tables: Mapping[str, Table], statuses: Statuses) -> list[Episode]:
     if 'refusal' in readings:
         refusals = [_refusal(number) for number in readings['refusal']]
         found += episodes('readings', readings['time'], refusals, 0.0)
+    if 'contradiction' in sensing:
+        contradictions = [_contradiction(number) for number in sensing['contradiction']]
+        found += episodes('object', sensing['time'], contradictions, TICK_LASTS)
     for name, said in statuses.items():
         said.sort(key=lambda status: status[0])
         times, levels = [time for time, _ in said], [label for _, label in said]
@@ -200,6 +206,12 @@ def _refusal(number: float) -> Label | None:
         return None
     reason = REFUSALS[int(number)]
     return NO_FAULT.get(reason, (WARNING, f'refused: {reason}'))
+
+
+def _contradiction(number: float) -> Label | None:
+    if not 0.0 < number < len(CONTRADICTIONS):
+        return None
+    return ERROR, CONTRADICTIONS[int(number)]
 
 
 def _facts(bag: BagReader, duration: float) -> list[str]:

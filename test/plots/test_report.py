@@ -198,6 +198,7 @@ def test_page_has_a_bounded_size_and_a_bounded_number_of_points(duration):
     fast = np.linspace(0.0, duration, int(duration) * 100 + 1)
     noise = np.random.default_rng(1).normal(size=len(fast))
     names = ('theta', 'theta_desired', 'phi', 'v_x', 'v_x_true', 'd', 'd_lower', 'd_upper')
+    names += ('d_least', 'd_most')
     names += ('d_true', 'silence', 'interval', 'object_x', 'object_y', 'object_angle', 'finger_x')
     run = make_run(duration=duration, series={name: Series(fast, noise) for name in names})
     text = report_html(run)

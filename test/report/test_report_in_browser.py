@@ -419,7 +419,9 @@ def test_run_without_a_simulator_has_finger_and_contact_and_no_object(opened, tm
         assert page.locator(there).is_visible(), there
     for missing in ('#object', '#cone', '#estimate'):
         assert not page.locator(missing).is_visible(), missing
-    assert 'object' not in page.locator('#key').inner_text()
+    key = page.locator('#key').inner_text()
+    assert 'object' not in key
+    assert 'estimated' not in key
 
 
 @pytest.mark.parametrize('own', ['tactile', 'contact', 'ground_truth/object_pose', STATE])
@@ -442,7 +444,8 @@ def test_estimates_are_drawn_with_their_bounds(opened, tmp_path):
         bag.add_topic('/object_pose', kind)
         for k in range(20):
             t, now = k / 10.0, START + k * 100_000_000
-            state = joint_state(t, d=0.001, d_lower=-0.001 * k, d_upper=0.002)
+            bounds = {'d_lower': -0.001 * k, 'd_upper': 0.002, 'd_least': -0.025, 'd_most': 0.025}
+            state = joint_state(t, d=0.001, **bounds)
             bag.write('/active_sensing/state', state, now, now)
             bag.write('/object_pose', estimated_pose(t, 0.001 * k, 0.04), now, now)
     assert main(['report', str(tmp_path / 'bag'), '-o', str(tmp_path / 'page.html')]) == 0
@@ -451,6 +454,10 @@ def test_estimates_are_drawn_with_their_bounds(opened, tmp_path):
     assert page.locator('#at-d').text_content() == '1.00 mm'
     moved = re.findall(r'-?[\d.]+', page.locator('#estimate').get_attribute('transform'))
     assert list(map(float, moved)) == pytest.approx([19.0, 40.0])
+    assert 'centre of mass, estimated' in page.locator('#key').inner_text()
     legend = page.locator('#plots .legendtext').all_text_contents()
-    assert sorted(legend) == ['bounds', 'estimated']
-    assert page.locator('#plots .fills path').count() == 1
+    assert sorted(legend) == ['95 %', 'estimated', 'guaranteed']
+    assert page.locator('#plots .fills path').count() == 2
+    # Bounds as wide as the object do not make d a line that nobody can read.
+    low, high = page.evaluate("document.getElementById('plots').layout.yaxis.range")
+    assert -5.0 < low < 1.0 < high < 5.0

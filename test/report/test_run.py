@@ -36,6 +36,7 @@ from pushed_bag import (
 )
 
 from tactile_push.bags import BagError, BagReader, BagWriter
+from tactile_push.estimation import CONTRADICTIONS
 from tactile_push.report import messages_shown, read_run
 
 JOINTS, POSE = 'sensor_msgs/msg/JointState', 'geometry_msgs/msg/PoseStamped'
@@ -247,6 +248,47 @@ def test_status_of_every_level(tmp_path):
         ('level 1', 'warning', 1.0, 2.0),
         ('level 2', 'error', 2.0, 3.0),
         ('level 3', 'error', 3.0, 5.0),
+    ]
+
+
+def sensing_bag(folder, widths, contradictions):
+    """Write a bag of control periods and how wide the 95 % interval of d was in each [m]."""
+    rows = []
+    for k, (width, contradiction) in enumerate(zip(widths, contradictions, strict=True)):
+        t = 0.1 * k
+        values = {'theta': 0.1, 'theta_desired': math.radians(-10.0), 'phi': 1.5, 'state': 2.0}
+        rows.append(('/push_controller/state', JOINTS, t, joint_state(t, **values)))
+        bounds = {'d_lower': -width / 2, 'd_upper': width / 2, 'd_least': -0.025, 'd_most': 0.025}
+        sensed = joint_state(t, d=0.0, **bounds, contradiction=contradiction)
+        rows.append(('/active_sensing/state', JOINTS, t, sensed))
+    return written(folder, *rows)
+
+
+def test_bounds_of_d_are_shown_and_the_step_from_which_it_is_known(tmp_path):
+    widths = [0.05, 0.01, 0.0015, 0.003, 0.001, 0.0005]
+    run = run_of(sensing_bag(tmp_path / 'bag', widths, [0.0] * 6))
+    assert run.series['d_upper'].values - run.series['d_lower'].values == pytest.approx(widths)
+    assert set(run.series['d_least'].values) == {-0.025}
+    assert set(run.series['d_most'].values) == {0.025}
+    outcome = {what: (here, paper) for what, here, paper in run.outcome}
+    assert outcome['d known to 2 mm from step'] == ('4', '400')
+
+
+@pytest.mark.parametrize(
+    ('widths', 'row'), [([0.05, 0.001, 0.01], ('never', '400')), ([0.0] * 3, None)]
+)
+def test_d_that_is_never_known_or_known_by_roundness(tmp_path, widths, row):
+    run = run_of(sensing_bag(tmp_path / 'bag', widths, [0.0] * 3))
+    outcome = {what: (here, paper) for what, here, paper in run.outcome}
+    assert outcome.get('d known to 2 mm from step') == row
+
+
+def test_contradictions_are_episodes(tmp_path):
+    run = run_of(sensing_bag(tmp_path / 'bag', [0.05] * 6, [0.0, 3.0, 3.0, 0.0, 99.0, 1.0]))
+    found = [(e.lane, e.text, e.level, e.start, e.end) for e in run.episodes]
+    assert found == [
+        ('object', CONTRADICTIONS[3], 'error', pytest.approx(0.1), pytest.approx(0.3)),
+        ('object', CONTRADICTIONS[1], 'error', pytest.approx(0.5), pytest.approx(0.5)),
     ]
 
 
