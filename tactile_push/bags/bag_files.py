@@ -173,21 +173,19 @@ def find_files(path: Path, metadata: BagMetadata, warn: Callable[[str], None]) -
             raise BagError(_foreign(path, 'sqlite3'))
         return [path]
     named = [path / name for name in metadata.files]
-    present = [file for file in named if file.is_file()]
-    for file in named:
-        if file not in present:
-            warn(f'{file}: missing, though metadata.yaml names it')
-    if present:
-        return present
-    files = sorted(
-        (file for file in path.iterdir() if _FILE_NAME.fullmatch(file.name)), key=_by_number
-    )
-    # While rosbag2 compresses a file, both are there.
-    files = [file for file in files if file.suffix == '.mcap' or file.with_suffix('') not in files]
+    files = [file for file in named if file.is_file()]
+    missing = [file for file in named if file not in files]
+    if not files:
+        there = (file for file in path.iterdir() if _FILE_NAME.fullmatch(file.name))
+        files = sorted(there, key=_by_number)
+        # While rosbag2 compresses a file, both are there.
+        files = [f for f in files if f.suffix == '.mcap' or f.with_suffix('') not in files]
     if not files:
         if any(file.suffix == '.db3' for file in path.iterdir()):
             raise BagError(_foreign(path, 'sqlite3'))
         raise BagError(f'{path}: no bag, which would have at least one .mcap file')
+    for file in missing:
+        warn(f'{file}: missing, though metadata.yaml names it')
     return files
 
 

@@ -13,6 +13,7 @@
 # limitations under the License.
 """The `tactile_push` command."""
 
+import argparse
 import os
 import signal
 import sys
@@ -20,19 +21,8 @@ from collections.abc import Sequence
 from types import FrameType
 from typing import NoReturn
 
-from tactile_push.cli import (
-    demo,
-    diff,
-    estimate,
-    figures,
-    info,
-    play,
-    record,
-    replay,
-    report,
-    simulate,
-)
-from tactile_push.cli.arguments import Parser
+# Exit statuses as shells give them to programs that SIGINT and SIGPIPE end.
+INTERRUPTED, READ_ENOUGH = 130, 141
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -46,13 +36,68 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit status: 0 done, 1 the job ran and failed, 2 bad input.
+        Exit status: 0 done, 1 the job ran and failed, 2 bad input or a file that cannot be read
+        or written, 130 interrupted, 141 nobody reads the output any more.
     """
+    command = 'tactile_push'
+    interrupted = False
+
+    def interrupt(signum: int, frame: FrameType | None) -> NoReturn:
+        nonlocal interrupted
+        interrupted = True
+        raise KeyboardInterrupt
+
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, interrupt)
+    try:
+        options = _parse(arguments)
+        command = f'tactile_push {options.command}'
+        for signum in (signal.SIGTERM, signal.SIGHUP):
+            if signal.getsignal(signum) != signal.SIG_IGN:  # as nohup asks
+                signal.signal(signum, _terminate)
+        status = options.run(options)
+        sys.stdout.flush()
+        return INTERRUPTED if interrupted else status
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except Exception as error:
+        if interrupted:  # what was being imported made another exception of it
+            return INTERRUPTED
+        if isinstance(error, BrokenPipeError):
+            _say_no_more()
+            return READ_ENOUGH
+        if not isinstance(error, OSError):
+            raise
+        if error.filename is None:
+            _say_no_more()
+        what = error.strerror
+        if isinstance(error, FileExistsError):
+            what = 'is there already, expected a new folder'
+        print(f'{command}: {error.filename or "standard output"}: {what}', file=sys.stderr)
+        return 2
+
+
+def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
+    # Imported here, so that an interrupt is silent from the beginning.
+    from tactile_push.cli import (
+        demo,
+        diff,
+        estimate,
+        figures,
+        info,
+        play,
+        record,
+        replay,
+        report,
+        simulate,
+    )
+    from tactile_push.cli.arguments import Parser
+
     parser = Parser(
         prog='tactile_push',
         description='Turn and locate objects by pushing them with one tactile finger.',
     )
-    commands = parser.add_subparsers(required=True, metavar='COMMAND')
+    commands = parser.add_subparsers(required=True, metavar='COMMAND', dest='command')
     for command in (
         demo,
         simulate,
@@ -66,19 +111,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         report,
     ):
         command.add(commands)
-    options = parser.parse_args(arguments)
-    for signum in (signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(signum) != signal.SIG_IGN:  # as nohup asks
-            signal.signal(signum, _terminate)
-    try:
-        status = options.run(options)
-        sys.stdout.flush()
-        return status
-    except KeyboardInterrupt:
-        return 130
-    except BrokenPipeError:  # whoever reads the output has read enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 1
+    options, unknown = parser.parse_known_args(arguments)
+    if unknown:
+        commands.choices[options.command].error(f'unrecognized arguments: {" ".join(unknown)}')
+    return options
+
+
+def _say_no_more() -> None:
+    """Let nothing of what is left be written at exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _terminate(signum: int, frame: FrameType | None) -> NoReturn:

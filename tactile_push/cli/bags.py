@@ -24,7 +24,16 @@ from typing import Any
 from rich.console import Console
 from rich.progress import Progress
 
+from tactile_push.cli.files import write_whole
+
 _WIDTH_OF_FILES = 160  # columns, where the output is no terminal
+
+
+class _Console(Console):
+    """A console that leaves it to the command what to do when nobody reads any more."""
+
+    def on_broken_pipe(self) -> None:
+        raise BrokenPipeError
 
 
 @contextmanager
@@ -71,7 +80,7 @@ def wide_console() -> Console:
     rich.console.Console
         As wide as the terminal; where there is none, wide enough.
     """
-    return Console(width=None if sys.stdout.isatty() else _WIDTH_OF_FILES)
+    return _Console(width=None if sys.stdout.isatty() else _WIDTH_OF_FILES)
 
 
 def plain(value: Any) -> Any:
@@ -117,7 +126,7 @@ def write_json(file: str, content: object) -> None:
     if file == '-':
         sys.stdout.write(text)
     else:
-        Path(file).write_text(text)
+        write_whole(Path(file), text)
 
 
 def bounded(values: Mapping[str, float], name: str, factor: float, digits: int) -> str:

@@ -77,7 +77,8 @@ def _demo(options: argparse.Namespace) -> int:
         print(f'tactile_push demo: {error}', file=sys.stderr)
         return 1
     except OSError as error:
-        print(f'tactile_push demo: --out: {error}', file=sys.stderr)
+        where = error.filename or options.out
+        print(f'tactile_push demo: {where}: {error.strerror}', file=sys.stderr)
         return 2
     if options.json:
         print(json.dumps(demo.as_json(results), indent=2))
@@ -87,10 +88,10 @@ def _demo(options: argparse.Namespace) -> int:
 
 
 def _print_demo(results: 'dict[str, RigResult]', out: Path) -> None:
-    from rich.console import Console
     from rich.markup import escape
     from rich.table import Table
 
+    from tactile_push.cli.bags import wide_console
     from tactile_push.demo import CASES, TRANSLATING
 
     table = Table()
@@ -137,6 +138,6 @@ def _print_demo(results: 'dict[str, RigResult]', out: Path) -> None:
     row('true d at the end [mm]', '', [f'{1e3 * run.d_final:.2f}' for run in runs])
     row('control ticks lost', '', [str(run.ticks_lost) for run in runs])
     row('wall time [s]', '', [f'{run.wall_seconds:.1f}' for run in runs])
-    console = Console()
+    console = wide_console()
     console.print(table)
     console.print(f'{out}/history.png, {out}/block/, {out}/disk/')

@@ -117,9 +117,6 @@ def _estimate(options: argparse.Namespace) -> int:
     except (BagError, ValueError) as error:
         print(f'tactile_push estimate: {error}', file=sys.stderr)
         return 2
-    except OSError as error:
-        print(f'tactile_push estimate: {error.filename}: {error.strerror}', file=sys.stderr)
-        return 2
     for result in results:
         if not result.object_told:
             warn(f"{_node(result)} was not recorded: taken for the paper's block")

@@ -59,7 +59,8 @@ def _figures(options: argparse.Namespace) -> int:
         try:
             files = save_figures(options.out, lambda name: status.update(name))
         except OSError as error:
-            print(f'tactile_push figures: --out: {error}', file=sys.stderr)
+            where = error.filename or options.out
+            print(f'tactile_push figures: {where}: {error.strerror}', file=sys.stderr)
             return 2
     if options.json:
         print(json.dumps({'files': [str(file) for file in files]}))

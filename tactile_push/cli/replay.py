@@ -74,35 +74,27 @@ def add(commands: Commands) -> None:
 
 
 def _replay(options: argparse.Namespace) -> int:
-    from rich.console import Console
-    from rich.progress import Progress
-
     from tactile_push.bags import BagError, BagReader
-    from tactile_push.cli.bags import write_json
+    from tactile_push.cli.bags import reading, warner, write_json
     from tactile_push.replay import replay
-
-    def warn(line: str) -> None:
-        print(f'tactile_push replay: {line}', file=sys.stderr)
 
     gains = {name: getattr(options, name) for name in GAINS if getattr(options, name) is not None}
     try:
-        with BagReader(options.bag, warn) as bag, Progress(console=Console(stderr=True)) as bar:
-            task = bar.add_task('replay', total=sum(bag.counts.values()))
+        with (
+            BagReader(options.bag, warner('replay')) as bag,
+            reading(sum(bag.counts.values())) as progress,
+        ):
             comparisons = replay(
                 bag,
                 config=options.config,
                 controller=gains,
                 out=options.out,
-                progress=lambda count: bar.update(task, completed=count),
+                progress=progress,
             )
-            bar.update(task, completed=sum(bag.counts.values()))
         if options.json is not None:
             write_json(options.json, {'fingers': [one.as_json() for one in comparisons]})
     except (BagError, ValueError) as error:
-        warn(str(error))
-        return 2
-    except OSError as error:
-        warn(f'{error.filename}: {error.strerror}')
+        print(f'tactile_push replay: {error}', file=sys.stderr)
         return 2
     if options.json != '-':
         _print(comparisons)

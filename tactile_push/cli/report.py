@@ -64,6 +64,7 @@ def _page(text: str) -> Path:
 def _report(options: argparse.Namespace) -> int:
     from tactile_push.bags import BagError, BagReader
     from tactile_push.cli.bags import reading, warner
+    from tactile_push.cli.files import write_whole
     from tactile_push.plots import report_html
     from tactile_push.report import messages_shown, read_run
 
@@ -78,10 +79,6 @@ def _report(options: argparse.Namespace) -> int:
     for line in run.warnings:
         warner('report')(line)
     out = options.out or Path(f'{re.sub(ENDINGS, "", run.name)}.html')
-    try:
-        out.write_text(report_html(run), encoding='utf-8', errors='replace')
-    except OSError as error:
-        print(f'tactile_push report: --out: {error}', file=sys.stderr)
-        return 2
+    write_whole(out, report_html(run))
     print(json.dumps({'file': str(out)}) if options.json else out)
     return 0

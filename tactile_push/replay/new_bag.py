@@ -14,15 +14,18 @@
 """A bag like another one, in which some topics are made again."""
 
 import os
-from collections.abc import Mapping
+import shutil
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 
 from tactile_push.bags import BagReader, BagWriter, Message, schema_text
 
 
+@contextmanager
 def new_bag(
     out: str | os.PathLike[str], bag: BagReader, made_again: Mapping[str, str]
-) -> BagWriter:
-    """Begin a bag with the topics and notes of another one.
+) -> Iterator[BagWriter]:
+    """Write a bag with the topics and notes of another one; unless all goes well, none is left.
 
     Parameters
     ----------
@@ -33,17 +36,29 @@ def new_bag(
     made_again : mapping of str to str
         Types of topics that the bag shall have even if the other one does not, by full name.
 
-    Returns
-    -------
+    Yields
+    ------
     BagWriter
         The bag, without messages.
 
     Raises
     ------
     OSError
-        If it cannot be made.
+        If it cannot be written; with its name.
     """
     writer = BagWriter(out)
+    try:
+        with writer:
+            _begin(writer, bag, made_again)
+            yield writer
+    except BaseException as error:
+        shutil.rmtree(out, ignore_errors=True)
+        if isinstance(error, OSError) and error.filename is None:
+            raise OSError(error.errno, error.strerror, os.fspath(out)) from None
+        raise
+
+
+def _begin(writer: BagWriter, bag: BagReader, made_again: Mapping[str, str]) -> None:
     for topic in bag.topics.values():
         writer.add_topic(
             topic.name,
@@ -57,7 +72,6 @@ def new_bag(
             writer.add_topic(name, type_name, definition=schema_text(type_name))
     for key, text in bag.notes.items():
         writer.note(key, text)
-    return writer
 
 
 def copy(writer: BagWriter, message: Message) -> None:

@@ -209,7 +209,7 @@ def test_nothing_ever_known_is_status_1(tmp_path, capsys):
         (['--edge', 'left'], '--edge: expected a whole number from -1 on, got left'),
         (['--noise-deg', '0'], '--noise-deg: expected degrees from 0.001 to 28, got 0'),
         (['--config', 'missing.yaml'], 'missing.yaml: No such file'),
-        (['-o', '.'], 'File exists'),
+        (['-o', '.'], 'is there already, expected a new folder'),
         (['--json', 'no/folder.json'], 'no/folder.json: No such file'),
     ],
 )

@@ -228,7 +228,7 @@ def test_topic_of_another_type_is_refused(tmp_path):
         (['--kp', 'nan'], '--kp'),
         (['--kd', '1001'], 'parameter kd: expected a number'),
         (['--config', 'missing.yaml'], 'missing.yaml'),
-        (['-o', '.'], 'File exists'),
+        (['-o', '.'], 'is there already, expected a new folder'),
         (['--json', 'no/folder.json'], 'no/folder.json'),
     ],
 )

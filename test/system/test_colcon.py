@@ -24,6 +24,7 @@ EXECUTABLES = {
     'tactile_push',
     'sensor_driver',
     'contact_geometry',
+    'active_sensing',
     'push_controller',
     'sim_plant',
     'experiment',
