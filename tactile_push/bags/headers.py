@@ -39,7 +39,11 @@ class HeaderStamps:
 
     def __init__(self, bag: BagReader) -> None:
         self._path = bag.path
-        self._topics = {name for name, topic in bag.topics.items() if _begins(topic.definition)}
+        self._topics = {
+            name
+            for name, topic in bag.topics.items()
+            if topic.decodes and _begins(topic.definition)
+        }
 
     def __contains__(self, topic: str) -> bool:
         """Return whether the messages of a topic have a header."""

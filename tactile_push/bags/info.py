@@ -16,6 +16,7 @@
 import json
 import math
 from array import array
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -29,7 +30,7 @@ from mcap.stream_reader import StreamReader
 
 from tactile_push.bags.headers import HeaderStamps
 from tactile_push.bags.merit import PushFigures, PushHistory
-from tactile_push.bags.reader import BagReader
+from tactile_push.bags.reader import BagError, BagReader
 
 STATE_TOPIC = '/push_controller/state'
 _JOINT_STATE = 'sensor_msgs/msg/JointState'
@@ -154,10 +155,16 @@ def bag_info(bag: BagReader, band: float, progress: Callable[[int], None] | None
     stamps = HeaderStamps(bag)
     surveys = {name: _Survey() for name in bag.topics}
     histories = _histories(bag, band, parameters or {}, remarks)
+    broken: Counter[str] = Counter()
     messages = 0
     for messages, message in enumerate(bag.messages(), 1):
         topic = message.topic
-        stamp = stamps.of(message) if topic in stamps else None
+        stamp = None
+        if topic in stamps:
+            try:
+                stamp = stamps.of(message)
+            except BagError:
+                broken[topic] += 1
         surveys[topic].add(message.log_time, stamp)
         if topic in histories and stamp is not None:
             state = bag.decode(message)
@@ -168,6 +175,8 @@ def bag_info(bag: BagReader, band: float, progress: Callable[[int], None] | None
             )
         if progress is not None and messages % _PROGRESS_EVERY == 0:
             progress(messages)
+    for name, count in broken.items():
+        remarks.append(f'{count} messages of {name} end before their stamp')
     return BagInfo(
         path=bag.path,
         files=[FileInfo(file, file.stat().st_size, _compression(file)) for file in bag.files],
@@ -260,6 +269,9 @@ def _histories(
             continue
         if topic.type_name != _JOINT_STATE:
             remarks.append(f'{name} has type {topic.type_name}, expected {_JOINT_STATE}')
+            continue
+        if not topic.decodes:
+            remarks.append(f'{name} cannot be decoded: message encoding {topic.encodings[0]!r}')
             continue
         namespace = name.removesuffix(STATE_TOPIC)
         plant = parameters.get(f'{namespace}/sim_plant'.removeprefix('/'), {})

@@ -63,8 +63,8 @@ class Player:
     publishers suited. The play begins when the graph has subscribers, all of them are matched and
     nothing has changed for `QUIET`, or after `PATIENCE`.
 
-    A topic whose type is not installed, or is another version of what was recorded, is left out
-    with a warning.
+    A topic whose messages are not CDR, whose type is not installed, or is another version of what
+    was recorded, is left out with a warning.
 
     Parameters
     ----------
@@ -291,11 +291,14 @@ def _make_publishers(node: Node, part: Part, names: Mapping[str, str]) -> dict[s
     if faults:
         node.get_logger().warning(f'left out: {", ".join(faults)}')
     if not publishers:
-        raise BagError(f'{part.bag.path}: none of its types is installed here')
+        raise BagError(f'{part.bag.path}: none of its topics can be published here')
     return publishers
 
 
 def _make_publisher(node: Node, topic: Topic, name: str) -> Publisher:
+    encoding = topic.encodings[0]
+    if encoding != 'cdr':
+        raise LookupError(f'its messages are {encoding!r}, expected cdr')
     profile = profile_of(combined_offer(topic.qos))
     try:
         publisher = node.create_publisher(message_class(topic.type_name), name, profile)

@@ -60,6 +60,8 @@ class Topic:
         Quality of service that each publisher offered, in the words of rosbag2.
     type_hash : str
         Hash of the type after REP-2011; empty if the bag does not have it.
+    encodings : tuple of str
+        That of the messages and that of the schema, such as ``('cdr', 'ros2msg')``.
     """
 
     name: str
@@ -67,6 +69,12 @@ class Topic:
     definition: str
     qos: tuple[dict, ...]
     type_hash: str
+    encodings: tuple[str, str]
+
+    @property
+    def decodes(self) -> bool:
+        """Whether its messages can be decoded: they are CDR, with a definition as ROS 2 has it."""
+        return self.encodings == ('cdr', 'ros2msg')
 
 
 class BagReader:
@@ -260,6 +268,7 @@ class BagReader:
                     '' if schema is None else schema.data.decode(errors='replace'),
                     self._qos(channel),
                     channel.metadata.get('topic_type_hash', ''),
+                    (channel.message_encoding, '' if schema is None else schema.encoding),
                 )
             elif topic.type_name != type_name:
                 self._warn(
@@ -351,11 +360,10 @@ class BagReader:
                 f'no sense: {_one_line(error)}'
             ) from None
         if decoder is None:
-            schema_encoding = '' if schema is None else schema.encoding
+            encoding, schema_encoding = self.topics[topic].encodings
             raise BagError(
-                f'{self.path}: {topic} cannot be decoded: message encoding '
-                f'{channel.message_encoding!r}, schema encoding {schema_encoding!r}; expected '
-                "'cdr' and 'ros2msg'"
+                f'{self.path}: {topic} cannot be decoded: message encoding {encoding!r}, '
+                f"schema encoding {schema_encoding!r}; expected 'cdr' and 'ros2msg'"
             )
         self._decoders[topic] = decoder
         return decoder

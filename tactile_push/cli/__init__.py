@@ -50,8 +50,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, interrupt)
     try:
-        options = _parse(arguments)
-        command = f'tactile_push {options.command}'
+        name, options = _parse(arguments)
+        command = f'tactile_push {name}'
         for signum in (signal.SIGTERM, signal.SIGHUP):
             if signal.getsignal(signum) != signal.SIG_IGN:  # as nohup asks
                 signal.signal(signum, _terminate)
@@ -77,7 +77,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 2
 
 
-def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
+def _parse(arguments: Sequence[str] | None) -> tuple[str, argparse.Namespace]:
     # Imported here, so that an interrupt is silent from the beginning.
     from tactile_push.cli import (
         demo,
@@ -112,9 +112,10 @@ def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
     ):
         command.add(commands)
     options, unknown = parser.parse_known_args(arguments)
+    name = vars(options).pop('command')  # which is no option
     if unknown:
-        commands.choices[options.command].error(f'unrecognized arguments: {" ".join(unknown)}')
-    return options
+        commands.choices[name].error(f'unrecognized arguments: {" ".join(unknown)}')
+    return name, options
 
 
 def _say_no_more() -> None:

@@ -183,5 +183,7 @@ def _print_object(console: 'Console', result: 'ObjectFigures') -> None:
             f'contradiction at {one.at:.3f} s for {one.duration:.3f} s{end}: {one.reason}',
             highlight=False,
         )
-    for forgotten in result.forgotten:
-        console.print(f'all forgotten at {forgotten.at:.3f} s: {forgotten.reason}', highlight=False)
+    for reason in dict.fromkeys(one.reason for one in result.forgotten):
+        times = [one.at for one in result.forgotten if one.reason == reason]
+        often = '' if len(times) == 1 else f', {len(times)} times up to {times[-1]:.3f} s'
+        console.print(f'all forgotten at {times[0]:.3f} s{often}: {reason}', highlight=False)

@@ -98,7 +98,14 @@ def _replay(options: argparse.Namespace) -> int:
         return 2
     if options.json != '-':
         _print(comparisons)
-    return 0
+    empty = [comparison for comparison in comparisons if not comparison.ticks]
+    for comparison in empty:
+        print(
+            f'tactile_push replay: {options.bag}: no control period of /{comparison.finger} could '
+            f'be made again, {comparison.kept} kept as recorded',
+            file=sys.stderr,
+        )
+    return 1 if empty else 0
 
 
 def _print(comparisons: 'list[Comparison]') -> None:
@@ -121,7 +128,10 @@ def _print(comparisons: 'list[Comparison]') -> None:
         row('control periods', len(comparison.ticks))
         if comparison.kept:
             row('before them, kept as recorded', comparison.kept)
-        row('commands that differ', len(different))
+        if comparison.recorded:
+            row('commands that differ', len(different))
+        else:
+            row('commands that differ', 'none recorded to compare with')
         if different:
             first = different[0]
             largest = max(different, key=lambda tick: abs(tick.v_x - tick.v_x_recorded))

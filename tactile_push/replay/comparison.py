@@ -102,6 +102,8 @@ class Comparison:
         The control periods.
     kept : int
         Control periods at the bag's beginning that depend on what was before, kept as recorded.
+    recorded : bool
+        Whether the bag has control periods to compare with.
     readings, contacts : int
         Readings replayed, and contacts found in them.
     refused : dict of str to int
@@ -113,6 +115,7 @@ class Comparison:
     finger: str
     ticks: list[ReplayedTick] = field(default_factory=list)
     kept: int = 0
+    recorded: bool = True
     readings: int = 0
     contacts: int = 0
     refused: dict[str, int] = field(default_factory=dict)
@@ -130,6 +133,7 @@ class Comparison:
         recorded : Tick or None
             As it was.
         """
+        self.recorded = recorded is not None
         self.ticks.append(
             ReplayedTick(
                 time,
@@ -144,6 +148,8 @@ class Comparison:
 
     def different(self) -> list[ReplayedTick]:
         """Give the control periods whose command is not to the bit what was commanded."""
+        if not self.recorded:
+            return []
         return [
             tick
             for tick in self.ticks
@@ -153,14 +159,14 @@ class Comparison:
 
     def as_json(self) -> dict[str, object]:
         """Give it all as plain values, SI units; null where there is no number."""
-        different = self.different()
+        different = len(self.different()) if self.recorded else None
         return {
             'finger': self.finger,
             'readings': self.readings,
             'contacts': self.contacts,
             'refused': self.refused,
             'kept': self.kept,
-            'different': len(different),
+            'different': different,
             'ticks': [{k: _plain(v) for k, v in tick._asdict().items()} for tick in self.ticks],
             'sensed': None if self.sensed is None else [tick.as_json() for tick in self.sensed],
         }

@@ -23,7 +23,12 @@ from tactile_push.bags import BagError, BagReader
 from tactile_push.control import tick_of
 from tactile_push.replay.new_bag import copy, new_bag
 from tactile_push.replay.object_history import ObjectFigures, ObjectHistory
-from tactile_push.replay.parameters import read_config, recorded_parameters, sensing_parameters
+from tactile_push.replay.parameters import (
+    check_config,
+    read_config,
+    recorded_parameters,
+    sensing_parameters,
+)
 from tactile_push.replay.sensing import POSE, STATE, TOPICS, Sensing
 from tactile_push.stamps import epoch_of
 
@@ -71,6 +76,7 @@ def estimate(
         If a file cannot be read, or the new bag cannot be written.
     """
     namespaces = _namespaces(bag)
+    check_config(config, namespaces)
     epoch = epoch_of(bag.start_time // 10**9)
     sensors: dict[str, Sensing] = {}
     histories: dict[str, ObjectHistory] = {}

@@ -16,7 +16,7 @@
 import difflib
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -94,6 +94,30 @@ def read_config(file: Path | None, namespace: str) -> ByNode:
         if similar:
             raise ValueError(f'{file}: {name}: unknown, did you mean {similar[0]}?')
     return values
+
+
+def check_config(file: Path | None, namespaces: Iterable[str]) -> None:
+    """Refuse a ROS parameter file that says nothing of any node.
+
+    Parameters
+    ----------
+    file : path or None
+        The file, if there is one.
+    namespaces : iterable of str
+        Namespaces with a slash at either end.
+
+    Raises
+    ------
+    ValueError
+        If it has no section for one of the nodes.
+    OSError
+        If it cannot be read.
+    """
+    if file is None:
+        return
+    nodes = [f'{namespace}{node}' for namespace in namespaces for node in NODES]
+    if not any(_matches(pattern, node) for pattern, _ in _sections(file) for node in nodes):
+        raise ValueError(f'{file}: nothing for a node of the bag, expected {" or ".join(nodes)}')
 
 
 def sensing_parameters(given: ByNode, wanted: ByNode) -> dict[str, Any]:

@@ -27,6 +27,7 @@ from tactile_push.replay.new_bag import copy, new_bag
 from tactile_push.replay.parameters import (
     ByNode,
     changed_parameters,
+    check_config,
     names_node,
     read_config,
     recorded_parameters,
@@ -86,6 +87,7 @@ def replay(
     found = _namespaces(bag)
     if not found:
         raise BagError(f'{bag.path}: nothing to replay, expected a topic tactile or contact')
+    check_config(config, found)
     with ExitStack() as stack:
         parameters = {n: _parameters(bag, n, config, controller or {}) for n in found}
         begin = bag.start_time, epoch_of(bag.start_time // 10**9)

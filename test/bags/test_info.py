@@ -20,9 +20,9 @@ import re
 import numpy as np
 import pytest
 from bag_making import encode, joint_state, write_bag, write_file, write_foreign_bag
-from mcap.writer import CompressionType
+from mcap.writer import CompressionType, Writer
 
-from tactile_push.bags import BagReader
+from tactile_push.bags import BagReader, schema_text
 from tactile_push.bags.info import bag_info
 from tactile_push.cli import main
 
@@ -272,3 +272,26 @@ def test_command_refuses_bad_bags_in_one_line(tmp_path, command):
         assert (status, out) == (2, '')
         assert len(err.splitlines()) == 1
         assert err.startswith(f'tactile_push info: {tmp_path / wrong}')
+
+
+def test_what_cannot_be_decoded_is_counted_all_the_same(tmp_path):
+    definition = schema_text('sensor_msgs/msg/JointState').encode()
+    with open(tmp_path / 'bag.mcap', 'wb') as stream:
+        mcap = Writer(stream)
+        mcap.start('')
+        schema = mcap.register_schema('sensor_msgs/msg/JointState', 'ros2msg', definition)
+        for name, encoding in (('/push_controller/state', 'json'), ('/tactile', 'cdr')):
+            channel = mcap.register_channel(name, encoding, schema)
+            for k in range(5):
+                mcap.add_message(channel, k * 10**9, b'{}', k * 10**9)
+        mcap.finish()
+    info = info_of(tmp_path / 'bag.mcap')
+    assert {topic.name: topic.messages for topic in info.topics} == {
+        '/push_controller/state': 5,
+        '/tactile': 5,
+    }
+    assert info.pushes == {}
+    assert info.remarks == [
+        "/push_controller/state cannot be decoded: message encoding 'json'",
+        '5 messages of /tactile end before their stamp',
+    ]

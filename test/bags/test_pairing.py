@@ -37,7 +37,9 @@ class MadeBag:
         topics = {topic for topic, _ in messages} | {'/a', '/b'}
         definition = schema_text(JOINT_STATE)
         self.path = 'made'
-        self.topics = {name: SimpleNamespace(definition=definition) for name in topics}
+        self.topics = {
+            name: SimpleNamespace(definition=definition, decodes=True) for name in topics
+        }
         self.most_read = 0
         self._messages = [
             Message(

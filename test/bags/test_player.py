@@ -308,6 +308,18 @@ def test_bag_without_anything_that_can_be_published_is_refused(graph, tmp_path):
         graph.play(part_of(write_strange(tmp_path / 'bag.mcap', with_number=False)))
 
 
+def test_what_is_not_cdr_is_not_published(graph, tmp_path):
+    with open(tmp_path / 'bag.mcap', 'wb') as stream:
+        mcap = Writer(stream)
+        mcap.start(profile='', library='test')
+        schema = mcap.register_schema(INT64, 'jsonschema', b'{}')
+        mcap.add_message(mcap.register_channel('/number', 'json', schema), EPOCH, b'{}', EPOCH)
+        mcap.finish()
+    with pytest.raises(BagError, match='bag.mcap: none of its'):
+        graph.play(part_of(BagReader(tmp_path / 'bag.mcap')))
+    assert "/number (its messages are 'json', expected cdr)" in graph.warnings[0]
+
+
 def test_bag_that_cannot_be_read_further_ends_the_play_with_the_error(graph, tmp_path):
     graph.listen(Int64, '/number')
     bag = write(tmp_path / 'bag', [0, 1, 2])

@@ -200,6 +200,37 @@ def test_two_fingers_are_two(tmp_path):
     assert len(fingers['left'].ticks) > 100
 
 
+def test_bag_of_which_nothing_can_be_made_again_is_no_success(tmp_path, capsys):
+    with BagReader(DATA / 'block') as reader, BagWriter(tmp_path / 'back') as writer:
+        for topic in reader.topics.values():
+            writer.add_topic(topic.name, topic.type_name, definition=topic.definition)
+        # Their stamps go back from message to message.
+        for k, message in enumerate(reversed(list(reader.messages()))):
+            writer.write(message.topic, message.data, 10**9 + 10**6 * k, 10**9 + 10**6 * k)
+    assert main(['replay', str(tmp_path / 'back'), '--kd', '3']) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert 'no control period' in line and 'kept as recorded' in line
+
+
+def test_without_control_periods_there_is_nothing_to_differ_from(tmp_path, capsys):
+    bag = copied(DATA / 'block', tmp_path / 'bag', keep={'/tactile', '/joint_states'}.__contains__)
+    assert main(['replay', str(bag)]) == 0
+    assert 'none recorded to compare with' in capsys.readouterr().out
+    assert main(['replay', str(bag), '--json', '-']) == 0
+    (finger,) = json.loads(capsys.readouterr().out)['fingers']
+    assert finger['different'] is None
+    assert len(finger['ticks']) > 100
+
+
+@pytest.mark.parametrize('text', ['hello world', '/other:\n  ros__parameters:\n    kd: 3.0\n', ''])
+def test_file_that_says_nothing_of_any_node_is_refused(text, tmp_path, capsys):
+    file = tmp_path / 'other.yaml'
+    file.write_text(text)
+    assert main(['replay', str(DATA / 'block'), '--config', str(file)]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert str(file) in line and '/push_controller' in line
+
+
 def test_source_is_not_touched(tmp_path):
     bag = copied(DATA / 'stops', tmp_path / 'bag')
     before = {f.name: hashlib.sha256(f.read_bytes()).digest() for f in bag.iterdir()}
