@@ -125,5 +125,5 @@ def test_output_that_cannot_be_written_is_bad_input(tmp_path: Path):
     file.write_text('')
     run = subprocess.run([*COMMAND, '-o', str(file)], capture_output=True, text=True, timeout=60)
     assert run.returncode == 2
-    assert run.stderr.splitlines()[-1].startswith('tactile_push demo: --out: ')
+    assert run.stderr.splitlines()[-1].startswith(f'tactile_push demo: {file}: ')
     assert 'Traceback' not in run.stderr
