@@ -102,6 +102,8 @@ class Comparison:
         The control periods.
     kept : int
         Control periods at the bag's beginning that depend on what was before, kept as recorded.
+    went_back : int
+        How many of these have a stamp before that of the one before them.
     recorded : bool
         Whether the bag has control periods to compare with.
     readings, contacts : int
@@ -115,11 +117,25 @@ class Comparison:
     finger: str
     ticks: list[ReplayedTick] = field(default_factory=list)
     kept: int = 0
+    went_back: int = 0
     recorded: bool = True
     readings: int = 0
     contacts: int = 0
     refused: dict[str, int] = field(default_factory=dict)
     sensed: list[SensedTick] | None = None
+    _last_kept: int = field(default=0, repr=False)  # its stamp [ns]
+
+    def keep(self, stamp: int) -> None:
+        """Count a control period that is kept as recorded.
+
+        Parameters
+        ----------
+        stamp : int
+            Its stamp [ns].
+        """
+        self.kept += 1
+        self.went_back += stamp < self._last_kept
+        self._last_kept = stamp
 
     def add(self, time: float, tick: Tick, recorded: Tick | None) -> None:
         """Take a control period.

@@ -237,7 +237,7 @@ class Finger:
                 if len(self._made) > REMEMBERED:
                     del self._made[next(iter(self._made))]
             if tick is None:
-                self.comparison.kept += 1
+                self.comparison.keep(stamp[0] * 10**9 + stamp[1])
                 for topic, message in (
                     ('finger/cmd_vel', command),
                     ('push_controller/state', state),

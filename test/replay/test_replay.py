@@ -209,7 +209,18 @@ def test_bag_of_which_nothing_can_be_made_again_is_no_success(tmp_path, capsys):
             writer.write(message.topic, message.data, 10**9 + 10**6 * k, 10**9 + 10**6 * k)
     assert main(['replay', str(tmp_path / 'back'), '--kd', '3']) == 1
     (line,) = capsys.readouterr().err.splitlines()
-    assert 'no control period' in line and 'kept as recorded' in line
+    assert 'no control period' in line and 'kept as recorded: the stamps of ' in line
+
+
+def test_what_is_kept_whatever_the_values_is_said(capsys):
+    with BagReader(DATA / 'stops') as bag:
+        (comparison,) = replay(bag)
+    assert comparison.kept > 0  # it begins in the middle of a run
+    assert main(['replay', str(DATA / 'stops')]) == 0
+    assert capsys.readouterr().err == ''
+    assert main(['replay', str(DATA / 'stops'), '--kd', '3']) == 0
+    (line,) = capsys.readouterr().err.splitlines()
+    assert f'warning: /push_controller: {comparison.kept} control periods are kept' in line
 
 
 def test_without_control_periods_there_is_nothing_to_differ_from(tmp_path, capsys):
