@@ -101,6 +101,8 @@ def _replay(options: argparse.Namespace) -> int:
     if options.json != '-':
         _print(comparisons)
     for comparison in comparisons:
+        for parameter in comparison.without_effect:
+            warn(f'{options.config}: {parameter}: what the bag tells of it stays as recorded')
         if not comparison.ticks:
             print(f'tactile_push replay: {options.bag}: {_why_not(comparison)}', file=sys.stderr)
         elif comparison.kept and (gains or options.config is not None):

@@ -110,6 +110,8 @@ class Comparison:
         Readings replayed, and contacts found in them.
     refused : dict of str to int
         Readings refused, by reason.
+    without_effect : list of str
+        Parameters that were wanted otherwise but that the bag decides, each with its node.
     sensed : list of SensedTick or None
         Where along the edge the finger was; None if the object was not sensed.
     """
@@ -122,6 +124,7 @@ class Comparison:
     readings: int = 0
     contacts: int = 0
     refused: dict[str, int] = field(default_factory=dict)
+    without_effect: list[str] = field(default_factory=list)
     sensed: list[SensedTick] | None = None
     _last_kept: int = field(default=0, repr=False)  # its stamp [ns]
 

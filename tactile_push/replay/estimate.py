@@ -76,7 +76,7 @@ def estimate(
         If a file cannot be read, or the new bag cannot be written.
     """
     namespaces = _namespaces(bag)
-    check_config(config, namespaces)
+    check_config(config, namespaces, ['active_sensing'])
     epoch = epoch_of(bag.start_time // 10**9)
     sensors: dict[str, Sensing] = {}
     histories: dict[str, ObjectHistory] = {}

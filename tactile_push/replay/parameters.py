@@ -16,7 +16,7 @@
 import difflib
 import json
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Set
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +24,7 @@ import yaml
 
 from tactile_push.configuration.active_sensing import PARAMETERS as OF_SENSING
 from tactile_push.configuration.contact_geometry import PARAMETERS as OF_GEOMETRY
+from tactile_push.configuration.finger import LINKS
 from tactile_push.configuration.push_controller import PARAMETERS as OF_CONTROLLER
 
 NODES = {
@@ -34,6 +35,11 @@ NODES = {
 NOTE = 'tactile_push.parameters'  # of a bag
 # What other nodes of the finger know too, where active_sensing was not recorded.
 KNOWN_TO = {'belt_speed': 'push_controller', 'finger_radius': 'contact_geometry'}
+# Of what the node's recorded state tells what came of it: when it ticked, where the finger was.
+TOLD = {
+    'contact_geometry': {'joint_names'},
+    'push_controller': {'control_rate', 'joint_names', *(link.name for link in LINKS)},
+}
 OF_OUTLINE = ('disk_radius', 'edge')  # what another outline replaces, too
 
 ByNode = dict[str, dict[str, Any]]  # values by node and name
@@ -96,8 +102,10 @@ def read_config(file: Path | None, namespace: str) -> ByNode:
     return values
 
 
-def check_config(file: Path | None, namespaces: Iterable[str]) -> None:
-    """Refuse a ROS parameter file that says nothing of any node.
+def check_config(
+    file: Path | None, namespaces: Iterable[str], nodes: Iterable[str] = tuple(NODES)
+) -> None:
+    """Refuse a ROS parameter file that has no parameter of any node.
 
     Parameters
     ----------
@@ -105,19 +113,55 @@ def check_config(file: Path | None, namespaces: Iterable[str]) -> None:
         The file, if there is one.
     namespaces : iterable of str
         Namespaces with a slash at either end.
+    nodes : iterable of str, optional
+        The nodes whose parameters are used, without the namespace.
 
     Raises
     ------
     ValueError
-        If it has no section for one of the nodes.
+        If it has no parameter of one of the nodes.
     OSError
         If it cannot be read.
     """
     if file is None:
         return
-    nodes = [f'{namespace}{node}' for namespace in namespaces for node in NODES]
-    if not any(_matches(pattern, node) for pattern, _ in _sections(file) for node in nodes):
-        raise ValueError(f'{file}: nothing for a node of the bag, expected {" or ".join(nodes)}')
+    looked_for = []
+    for namespace in namespaces:
+        values = read_config(file, namespace)
+        for node in nodes:
+            if any(parameter.name in values[node] for parameter in NODES[node]):
+                return
+            looked_for.append(f'{namespace}{node}')
+    names = ' or '.join(looked_for)
+    raise ValueError(f'{file}: no parameter of a node of the bag, expected some of {names}')
+
+
+def without_effect(given: ByNode, wanted: ByNode, recorded: Set[str]) -> list[str]:
+    """Name parameters that somebody wants otherwise, but that the bag decides.
+
+    Parameters
+    ----------
+    given : dict
+        The recorded values by node and name.
+    wanted : dict
+        Those that somebody wants instead.
+    recorded : set of str
+        The finger's topics in the bag, without the namespace.
+
+    Returns
+    -------
+    list of str
+        Such as ``'push_controller: control_rate'``.
+    """
+    return [
+        f'{node}: {parameter.name}'
+        for node in TOLD
+        if f'{node}/state' in recorded
+        for parameter in NODES[node]
+        if parameter.name in TOLD[node]
+        and parameter.name in wanted[node]
+        and wanted[node][parameter.name] != given[node].get(parameter.name, parameter.default)
+    ]
 
 
 def sensing_parameters(given: ByNode, wanted: ByNode) -> dict[str, Any]:

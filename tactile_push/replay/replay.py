@@ -32,6 +32,7 @@ from tactile_push.replay.parameters import (
     read_config,
     recorded_parameters,
     sensing_parameters,
+    without_effect,
 )
 from tactile_push.replay.sensing import TOPICS as OF_SENSING
 from tactile_push.stamps import epoch_of
@@ -99,6 +100,9 @@ def replay(
                 set(wanted['push_controller']),
                 begin,
                 bag.decode,
+            )
+            fingers[namespace].comparison.without_effect = without_effect(
+                recorded_parameters(bag.notes, namespace), wanted, found[namespace]
             )
         if out is not None:
             made = {

@@ -209,12 +209,18 @@ def test_nothing_ever_known_is_status_1(tmp_path, capsys):
         (['--edge', 'left'], '--edge: expected a whole number from -1 on, got left'),
         (['--noise-deg', '0'], '--noise-deg: expected degrees from 0.001 to 28, got 0'),
         (['--config', 'missing.yaml'], 'missing.yaml: No such file'),
+        (
+            ['--config', 'gains.yaml'],
+            'gains.yaml: no parameter of a node of the bag, expected some',
+        ),
         (['-o', '.'], 'is there already, expected a new folder'),
         (['--json', 'no/folder.json'], 'no/folder.json: No such file'),
     ],
 )
 def test_bad_input_is_one_line_and_exit_status_2(arguments, words, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    gains = '/push_controller:\n  ros__parameters:\n    kd: 3.0\n'  # which it does not need
+    (tmp_path / 'gains.yaml').write_text(gains)
     try:
         status = main(['estimate', str(STOPS), *arguments])
     except SystemExit as end:

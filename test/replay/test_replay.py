@@ -233,7 +233,32 @@ def test_without_control_periods_there_is_nothing_to_differ_from(tmp_path, capsy
     assert len(finger['ticks']) > 100
 
 
-@pytest.mark.parametrize('text', ['hello world', '/other:\n  ros__parameters:\n    kd: 3.0\n', ''])
+def test_parameter_that_the_bag_decides_is_said(tmp_path, capsys):
+    file = tmp_path / 'rate.yaml'
+    file.write_text('push_controller:\n  ros__parameters:\n    control_rate: 20.0\n    kd: 3.0\n')
+    assert main(['replay', str(DATA / 'block'), '--config', str(file)]) == 0
+    (line,) = capsys.readouterr().err.splitlines()
+    assert f'warning: {file}: push_controller: control_rate: ' in line
+    # Without recorded control periods it decides when they are.
+    keep = {'/tactile', '/joint_states'}.__contains__
+    bag = copied(DATA / 'block', tmp_path / 'bag', keep=keep)
+    assert main(['replay', str(bag), '--config', str(file)]) == 0
+    assert capsys.readouterr().err == ''
+    # As it was recorded it changes nothing anyway.
+    file.write_text('push_controller:\n  ros__parameters:\n    control_rate: 10.0\n')
+    assert main(['replay', str(DATA / 'block'), '--config', str(file)]) == 0
+    assert capsys.readouterr().err == ''
+
+
+@pytest.mark.parametrize(
+    'text',
+    [
+        'hello world',
+        '/other:\n  ros__parameters:\n    kd: 3.0\n',
+        '/**:\n  ros__parameters:\n    anything: 1\n',
+        '',
+    ],
+)
 def test_file_that_says_nothing_of_any_node_is_refused(text, tmp_path, capsys):
     file = tmp_path / 'other.yaml'
     file.write_text(text)
