@@ -17,8 +17,8 @@ import math
 import re
 from collections.abc import Callable, Collection, Iterator
 
-from tactile_push.bags.differences import Difference, FieldDiff, Tolerances, TopicDiff
-from tactile_push.bags.fields import Lone, Unequal, compare_messages, seconds
+from tactile_push.bags.differences import Difference, FieldDiff, Tolerances, TopicDiff, is_part
+from tactile_push.bags.fields import Lone, Unequal, compare_messages, field_paths, seconds
 from tactile_push.bags.headers import HeaderStamps
 from tactile_push.bags.pairing import Pair, pairs_by_stamp, pairs_in_order
 from tactile_push.bags.reader import BagError, BagReader, Message, Topic
@@ -66,13 +66,17 @@ def diff(
     Raises
     ------
     BagError
-        If a bag cannot be read, or neither has a topic that is asked for.
+        If a bag cannot be read, or neither has a topic or a field that is asked for.
     """
     there = {name for bag in (a, b) for name in bag.topics}
     tolerances = tolerances or Tolerances()
-    if unknown := sorted({*(topics or ())} - there):
+    named = {*(topics or ()), *ignore, *(topic for topic, _ in tolerances.fields)}
+    if unknown := sorted(named - there):
         raise BagError(f'no topic {unknown[0]} in {a.path} or {b.path}: they have {_list(there)}')
     selected = {name for name in there if topics is None or name in topics} - {*ignore}
+    for topic, field in tolerances.fields:
+        if topic in selected:
+            _check_field(a, b, topic, field, times)
     comparison = _Comparison(a, b, tolerances, times)
     results = {name: comparison.start(name) for name in sorted(selected)}
     done = 0
@@ -183,6 +187,24 @@ class _Comparison:
         if result.by_stamp and result.only_a and result.only_b and not result.compared:
             result.remarks.append('no stamp is in both bags')
         return result
+
+
+def _check_field(a: BagReader, b: BagReader, topic: str, field: str, times: bool) -> None:
+    """Refuse a tolerance for a field that no message has; the first message mostly has it."""
+    known = {'log_time', 'publish_time'} if times else set()
+    if field in known:
+        return
+    empty = True
+    for bag in (a, b):
+        for message in bag.messages([topic]):
+            empty = False
+            paths = set(field_paths(bag.decode(message)))
+            if any(is_part(field, path) for path in paths):
+                return
+            known |= paths
+    if not empty:
+        fields = [path for path in known if not path.endswith((')', '[]'))]
+        raise BagError(f'no field {field} in {topic}: it has {_list(fields)}')
 
 
 def _bare(topic: Topic) -> list[str]:

@@ -53,13 +53,27 @@ class Tolerances:
             The tolerance, in the field's unit.
         """
         for (name, part), tolerance in reversed([*self.fields.items()]):
-            if name == topic and (
-                part == path
-                or path.endswith(f'.{part}')
-                or path.startswith((f'{part}.', f'{part}['))
-            ):
+            if name == topic and is_part(part, path):
                 return tolerance
         return self.default
+
+
+def is_part(part: str, path: str) -> bool:
+    """Tell whether a part of a path names the field.
+
+    Parameters
+    ----------
+    part : str
+        The path or a part of it that reaches to its beginning or end.
+    path : str
+        Whole path of the field.
+
+    Returns
+    -------
+    bool
+        Whether it does.
+    """
+    return part == path or path.endswith(f'.{part}') or path.startswith((f'{part}.', f'{part}['))
 
 
 @dataclass(frozen=True)

@@ -83,6 +83,22 @@ def compare_messages(a: Any, b: Any) -> Iterator[Unequal | Lone]:
     return _compare(a, b, '', '')
 
 
+def field_paths(message: Any) -> Iterator[str]:
+    """Give the paths that the fields of a message have in a comparison.
+
+    Parameters
+    ----------
+    message : object
+        The decoded message.
+
+    Yields
+    ------
+    str
+        As `Unequal.field`; of an array also that of its length.
+    """
+    return _paths(message, '')
+
+
 def seconds(time: int) -> str:
     """Return a time in seconds, to the nanosecond.
 
@@ -98,6 +114,23 @@ def seconds(time: int) -> str:
     """
     sign = '-' if time < 0 else ''
     return f'{sign}{abs(time) // 10**9}.{abs(time) % 10**9:09d}'
+
+
+def _paths(value: Any, field: str) -> Iterator[str]:
+    if hasattr(value, '__slots__') and list(value.__slots__) != _TIME:
+        joints = _match_joints(value, value) if value._type == _JOINT_STATE else None
+        for name in value.__slots__:
+            path = f'{field}.{name}' if field else name
+            if joints and name in _JOINT_ARRAYS and getattr(value, name):
+                yield from (f'{path}.{joint}' for joint, _, _ in joints.common)
+            yield from _paths(getattr(value, name), path)
+    elif _is_array(value):
+        yield f'len({field})'
+        yield f'{field}[]'
+        for entry in value if value and hasattr(value[0], '__slots__') else ():
+            yield from _paths(entry, f'{field}[]')
+    else:
+        yield field
 
 
 def _compare(a: Any, b: Any, field: str, where: str) -> Iterator[Unequal | Lone]:

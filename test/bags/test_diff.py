@@ -141,7 +141,7 @@ def test_topic_of_one_bag_is_a_difference_unless_left_out(compare):
     assert results['/clock'].remarks == ['only A has the topic']
     assert results['/clock'].types == (CLOCK, None)
     assert compare(b, a)['/clock'].remarks == ['only B has the topic']
-    for options in ({'ignore': ['/clock', '/nowhere']}, {'topics': [STATE]}):
+    for options in ({'ignore': ['/clock']}, {'topics': [STATE]}):
         results = compare(a, b, **options)
         assert list(results) == [STATE]
         assert results[STATE].same
@@ -158,6 +158,20 @@ def test_unknown_topic_is_refused(compare):
     with pytest.raises(BagError, match='no topic /nowhere in .*: they have /clock') as caught:
         compare({'/clock': clocks(1)}, {'/clock': clocks(1)}, topics=['/clock', '/nowhere'])
     assert '\n' not in str(caught.value)
+
+
+def test_what_no_bag_has_is_no_tolerance_and_nothing_to_ignore(compare):
+    bags = {STATE: states()}, {STATE: states(kp=0.05)}
+    with pytest.raises(BagError, match=f'no topic /nowhere in .* they have {STATE}'):
+        compare(*bags, ignore=['/nowhere'])
+    with pytest.raises(BagError, match='no topic /nowhere in '):
+        compare(*bags, tolerances=Tolerances(0.0, {('/nowhere', 'theta'): 1.0}))
+    for wrong in ('thta', 'eta', 'log_time'):
+        with pytest.raises(BagError, match=f'no field {wrong} in {STATE}: it has .*position.theta'):
+            compare(*bags, tolerances=Tolerances(0.0, {(STATE, wrong): 1.0}))
+    for right in ('kp', 'theta', 'position', 'position.theta', 'header', 'stamp', 'velocity'):
+        compare(*bags, tolerances=Tolerances(0.0, {(STATE, right): 1.0}))
+    compare(*bags, tolerances=Tolerances(0.0, {(STATE, 'log_time'): 1.0}), times=True)
 
 
 def test_another_type_is_a_difference_in_words(compare):
@@ -221,8 +235,8 @@ def test_tolerances(compare):
     assert fields(0.0, {(STATE, 'position'): 1e-5}) == {'position.phi'}
     assert fields(1.0, {(STATE, 'theta'): 0.0}) == {'position.theta'}
     assert fields(0.0, {(STATE, 'position'): 1.0, (STATE, 'theta'): 0.0}) == {'position.theta'}
+    a['/another'] = b['/another'] = states()
     assert fields(0.0, {('/another', 'theta'): 1.0}) == both
-    assert fields(0.0, {(STATE, 'eta'): 1.0}) == both
 
 
 def test_exactly_the_tolerance_is_allowed(compare):

@@ -25,7 +25,7 @@ from mcap.records import Schema
 from mcap_ros2.decoder import DecoderFactory
 
 from tactile_push.bags import schema_text
-from tactile_push.bags.fields import Lone, Unequal, compare_messages, seconds
+from tactile_push.bags.fields import Lone, Unequal, compare_messages, field_paths, seconds
 
 JOINT_STATE = 'sensor_msgs/msg/JointState'
 DECODERS = DecoderFactory()
@@ -178,6 +178,28 @@ def test_joint_states_that_cannot_be_matched_are_compared_as_they_are(position):
     b = joints(['x', 'x'], position=[*position[:-1], 5.0])
     (found,) = differences(JOINT_STATE, a, b)
     assert found.field == 'position[]'
+
+
+@pytest.mark.parametrize(
+    ('type_name', 'a', 'b'),
+    [
+        ('geometry_msgs/msg/TwistStamped', {}, {'twist': {'linear': {'x': 1.0}}}),
+        ('builtin_interfaces/msg/Time', {}, {'sec': 1}),
+        (JOINT_STATE, joints('ab', position=[1.0, 2.0]), joints('ab', position=[1.0, 3.0])),
+        (JOINT_STATE, joints('ab', position=[1.0, 2.0]), joints('ab', effort=[1.0, 2.0])),
+        (JOINT_STATE, joints('ab', position=[1.0, 2.0]), joints('bb', position=[1.0, 3.0])),
+        ('sensor_msgs/msg/CompressedImage', {'data': [1]}, {'data': [2]}),
+        (
+            'diagnostic_msgs/msg/DiagnosticStatus',
+            {'values': [{'key': 'age'}]},
+            {'values': [{'key': 'rate'}]},
+        ),
+    ],
+)
+def test_fields_of_differences_are_among_the_paths(type_name, a, b):
+    messages = [decode(type_name, encode(type_name, **fields)) for fields in (a, b)]
+    found = {unequal.field for unequal in compare_messages(*messages)}
+    assert found and found <= {path for message in messages for path in field_paths(message)}
 
 
 def test_fields_of_another_definition():
