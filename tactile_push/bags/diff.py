@@ -99,6 +99,7 @@ class _Comparison:
         self._times = times
         self._stamped = HeaderStamps(a), HeaderStamps(b)
         self._same_definition: set[str] = set()
+        self._opaque: set[str] = set()  # topics that cannot be decoded
         self._known: dict[tuple[str, str], float] = {}
 
     def start(self, name: str) -> TopicDiff:
@@ -116,23 +117,36 @@ class _Comparison:
                 result.remarks.append(f'only {"A" if counts[0] else "B"} has the topic')
         elif in_a and in_b and in_a.type_name != in_b.type_name:
             result.remarks.append(f'type {in_a.type_name} in A, {in_b.type_name} in B')
+        elif in_a and in_b and in_a.encodings != in_b.encodings:
+            result.remarks.append(f'{in_a.in_words} in A, {in_b.in_words} in B')
         elif in_a and in_b and _bare(in_a) != _bare(in_b):
             result.remarks.append(f'A and B define {in_a.type_name} differently')
         else:
             self._same_definition.add(name)
+        if result in self._comparable([result]) and not self._a.topics[name].decodes:
+            self._opaque.add(name)
+            result.notes.append(f'compared byte by byte: {self._a.topics[name].in_words}')
         return result
 
     def pairs(self, results: Collection[TopicDiff]) -> Iterator[Pair]:
         """Read the messages of the topics that can be compared."""
-        comparable = [
-            result for result in results if all(result.counts) and len({*result.types}) == 1
-        ]
+        comparable = self._comparable(results)
         by_stamp = [result.name for result in comparable if result.by_stamp]
         if by_stamp:
             yield from pairs_by_stamp(self._a, self._b, by_stamp)
         for result in comparable:
             if not result.by_stamp:
                 yield from pairs_in_order(self._a, self._b, result.name)
+
+    def _comparable(self, results: Collection[TopicDiff]) -> list[TopicDiff]:
+        """Select the topics of which both bags have messages of one type and encoding."""
+        return [
+            result
+            for result in results
+            if all(result.counts)
+            and len({*result.types}) == 1
+            and len({bag.topics[result.name].encodings for bag in (self._a, self._b)}) == 1
+        ]
 
     def compare(self, result: TopicDiff, pair: Pair) -> None:
         """Take a pair of messages."""
@@ -172,7 +186,12 @@ class _Comparison:
                 if time_a != time_b:
                     in_words = seconds(time_a), seconds(time_b)
                     yield Unequal(name, name, *in_words, abs(time_a - time_b) / 1e9)
-        if a.data != b.data or a.topic not in self._same_definition:
+        if a.topic in self._opaque:
+            for unequal in compare_messages(a.data, b.data):
+                assert isinstance(unequal, Unequal)
+                where = f'bytes {unequal.where}'
+                yield Unequal('bytes', where, unequal.a, unequal.b, math.inf)
+        elif a.data != b.data or a.topic not in self._same_definition:
             yield from compare_messages(self._a.decode(a), self._b.decode(b))
 
     def _tolerance(self, topic: str, path: str) -> float:

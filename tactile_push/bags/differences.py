@@ -158,6 +158,8 @@ class TopicDiff:
         Fields that only the messages of one bag have.
     remarks : list of str
         What else is different, in words.
+    notes : list of str
+        What is to be known of the comparison, in words.
     """
 
     name: str
@@ -174,6 +176,7 @@ class TopicDiff:
     fields_only_a: list[str] = field(default_factory=list)
     fields_only_b: list[str] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
 
     @property
     def same(self) -> bool:

@@ -38,7 +38,7 @@ class HeaderStamps:
     """
 
     def __init__(self, bag: BagReader) -> None:
-        self._path = bag.path
+        self._bag = bag
         self._topics = {
             name
             for name, topic in bag.topics.items()
@@ -70,8 +70,9 @@ class HeaderStamps:
         try:
             sec, nanosec = _STAMP[message.data[1] & 1].unpack_from(message.data, _STAMP_AT)
         except (IndexError, struct.error):
+            at = (message.log_time - self._bag.start_time) * 1e-9
             raise BagError(
-                f'{self._path}: a message of {message.topic} at {message.log_time} ns has '
+                f'{self._bag.path}: the message of {message.topic} at {at:.6f} s has '
                 f'{len(message.data)} bytes, expected a header'
             ) from None
         return sec * 10**9 + nanosec

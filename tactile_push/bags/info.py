@@ -155,7 +155,11 @@ def bag_info(bag: BagReader, band: float, progress: Callable[[int], None] | None
     stamps = HeaderStamps(bag)
     surveys = {name: _Survey() for name in bag.topics}
     histories = _histories(bag, band, parameters or {}, remarks)
+    encoded = Counter(topic.in_words for topic in bag.topics.values() if not topic.decodes)
+    for words, count in encoded.items():
+        remarks.append(f'{count} of {len(bag.topics)} topics cannot be decoded: {words}')
     broken: Counter[str] = Counter()
+    odd: Counter[str] = Counter()
     messages = 0
     for messages, message in enumerate(bag.messages(), 1):
         topic = message.topic
@@ -167,16 +171,22 @@ def bag_info(bag: BagReader, band: float, progress: Callable[[int], None] | None
                 broken[topic] += 1
         surveys[topic].add(message.log_time, stamp)
         if topic in histories and stamp is not None:
-            state = bag.decode(message)
-            histories[topic].add(
-                (message.log_time - bag.start_time) / 1e9,
-                (stamp - bag.start_time) / 1e9,
-                dict(zip(state.name, state.position, strict=False)),
-            )
+            try:
+                state = bag.decode(message)
+            except BagError:
+                odd[topic] += 1
+            else:
+                histories[topic].add(
+                    (message.log_time - bag.start_time) / 1e9,
+                    (stamp - bag.start_time) / 1e9,
+                    dict(zip(state.name, state.position, strict=False)),
+                )
         if progress is not None and messages % _PROGRESS_EVERY == 0:
             progress(messages)
     for name, count in broken.items():
         remarks.append(f'{count} messages of {name} end before their stamp')
+    for name, count in odd.items():
+        remarks.append(f'{count} messages of {name} do not decode')
     return BagInfo(
         path=bag.path,
         files=[FileInfo(file, file.stat().st_size, _compression(file)) for file in bag.files],
@@ -271,7 +281,6 @@ def _histories(
             remarks.append(f'{name} has type {topic.type_name}, expected {_JOINT_STATE}')
             continue
         if not topic.decodes:
-            remarks.append(f'{name} cannot be decoded: message encoding {topic.encodings[0]!r}')
             continue
         namespace = name.removesuffix(STATE_TOPIC)
         plant = parameters.get(f'{namespace}/sim_plant'.removeprefix('/'), {})

@@ -76,6 +76,11 @@ class Topic:
         """Whether its messages can be decoded: they are CDR, with a definition as ROS 2 has it."""
         return self.encodings == ('cdr', 'ros2msg')
 
+    @property
+    def in_words(self) -> str:
+        """How its messages are encoded, where they cannot be decoded."""
+        return f'message encoding {self.encodings[0]!r}, schema encoding {self.encodings[1]!r}'
+
 
 class BagReader:
     """A bag of this package or of ``ros2 bag record -s mcap``; a context manager.
@@ -360,10 +365,9 @@ class BagReader:
                 f'no sense: {_one_line(error)}'
             ) from None
         if decoder is None:
-            encoding, schema_encoding = self.topics[topic].encodings
             raise BagError(
-                f'{self.path}: {topic} cannot be decoded: message encoding {encoding!r}, '
-                f"schema encoding {schema_encoding!r}; expected 'cdr' and 'ros2msg'"
+                f'{self.path}: {topic} cannot be decoded: {self.topics[topic].in_words}; '
+                "expected 'cdr' and 'ros2msg'"
             )
         self._decoders[topic] = decoder
         return decoder

@@ -176,6 +176,7 @@ def _topic_as_json(result: 'TopicDiff') -> dict[str, Any]:
         'fields_only_in_a': result.fields_only_a,
         'fields_only_in_b': result.fields_only_b,
         'remarks': result.remarks,
+        'notes': result.notes,
         'first': None if result.first is None else entry(result.first),
         'fields': {
             name: {
@@ -216,7 +217,7 @@ def _print(options: argparse.Namespace, results: 'Sequence[TopicDiff]') -> None:
         for bag, fields in (('A', result.fields_only_a), ('B', result.fields_only_b)):
             if fields:
                 remarks.append(f'{result.name}: fields only in {bag}: {", ".join(fields)}')
-        remarks += [f'{result.name}: {remark}' for remark in result.remarks]
+        remarks += [f'{result.name}: {remark}' for remark in result.remarks + result.notes]
     console.print(overview)
     details = _details(results)
     if details.row_count:

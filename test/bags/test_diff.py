@@ -24,6 +24,7 @@ import pytest
 from bag_making import encode, joint_state, write_bag, write_file, write_foreign_bag
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mcap.writer import Writer
 
 from tactile_push.bags import BagError, BagReader, schema_text
 from tactile_push.bags.diff import diff
@@ -270,6 +271,34 @@ def test_bag_of_rosbags_equals_our_own(compare, tmp_path):
     results = compare(theirs, topics)
     assert [(result.compared, result.different) for result in results.values()] == [(2, 0), (5, 0)]
     assert all(result.same for result in results.values())
+
+
+def file_of_json(path, *messages, encoding='json', schema='jsonschema', definition=b'{}'):
+    with open(path, 'wb') as stream:
+        writer = Writer(stream)
+        writer.start()
+        channel = writer.register_channel(
+            STATE, encoding, writer.register_schema(JOINT_STATE, schema, definition)
+        )
+        for k, message in enumerate(messages):
+            writer.add_message(channel, k * PERIOD, message, k * PERIOD)
+        writer.finish()
+    return path
+
+
+def test_what_cannot_be_decoded_is_compared_byte_by_byte(compare, tmp_path):
+    a = file_of_json(tmp_path / 'a.mcap', b'{}', b'{"x": 1}')
+    b = file_of_json(tmp_path / 'b.mcap', b'{}', b'{"x": 2}', definition=b'{"other": 1}')
+    note = "compared byte by byte: message encoding 'json', schema encoding 'jsonschema'"
+    same = compare(a, a)[STATE]
+    assert (same.same, same.compared, same.notes) == (True, 2, [note])
+    result = compare(a, b, tolerances=Tolerances(9.0))[STATE]
+    assert (result.same, result.different, result.notes) == (False, 1, [note])
+    assert result.first == Difference(1, 'bytes [6]', ord('1'), ord('2'), math.inf)
+    cdr = file_of_json(tmp_path / 'c.mcap', b'{}', encoding='cdr')
+    other = compare(a, cdr)[STATE]
+    assert (other.same, other.compared) == (False, 0)
+    assert other.remarks[0].startswith("message encoding 'json', schema encoding 'jsonschema' in A")
 
 
 VALUES = st.floats(width=64) | st.sampled_from([0.0, 1.0])

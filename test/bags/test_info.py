@@ -292,6 +292,14 @@ def test_what_cannot_be_decoded_is_counted_all_the_same(tmp_path):
     }
     assert info.pushes == {}
     assert info.remarks == [
-        "/push_controller/state cannot be decoded: message encoding 'json'",
+        "1 of 2 topics cannot be decoded: message encoding 'json', schema encoding 'ros2msg'",
         '5 messages of /tactile end before their stamp',
     ]
+
+
+def test_states_that_do_not_decode_are_counted_and_left_out(tmp_path):
+    state = joint_state(10**9, theta=0.1)
+    cut = [(k * 10**9, state[:20]) for k in range(3)]  # behind the stamp
+    info = info_of(write_bag(tmp_path / 'bag', {STATE: ('sensor_msgs/msg/JointState', cut)}))
+    assert [topic.messages for topic in info.topics] == [3]
+    assert info.remarks == [f'3 messages of {STATE} do not decode']
