@@ -36,6 +36,7 @@ from rclpy.qos import (
     ReliabilityPolicy,
     qos_check_compatible,
 )
+from rclpy.serialization import deserialize_message
 from rosgraph_msgs.msg import Clock as ClockMessage
 
 from tactile_push.bags.offers import Offer, combined_offer
@@ -64,7 +65,8 @@ class Player:
     nothing has changed for `QUIET`, or after `PATIENCE`.
 
     A topic whose messages are not CDR, whose type is not installed, or is another version of what
-    was recorded, is left out with a warning.
+    was recorded, is left out with a warning. Of each topic the first message is decoded when it is
+    due, and a warning given if that fails; all are published as they are.
 
     Parameters
     ----------
@@ -128,6 +130,7 @@ class Player:
         self._events = ReadAhead(
             events(part.messages, part.begin, part.end, clock_rate=clock_rate, loop=loop)
         )
+        self._untried = set(self._publishers)  # topics of which no message has been decoded
         self._playback: Playback | None = None  # since the play began
         self._requests: SimpleQueue[tuple[Callable[[], Any], Future[Any]]] = SimpleQueue()
         self._stopping = False
@@ -268,8 +271,21 @@ class Player:
         if event.message is None or event.time != self._told:
             self._tell(event.time)
         if event.message is not None:
-            self._publishers[event.message.topic].publish(event.message.data)
+            publisher = self._publishers[event.message.topic]
+            if event.message.topic in self._untried:
+                self._try(event.message, publisher.msg_type)
+            publisher.publish(event.message.data)
             self.published += 1
+
+    def _try(self, message: Message, message_type: type) -> None:
+        """Warn of messages of which subscribers can make nothing."""
+        self._untried.remove(message.topic)
+        try:
+            deserialize_message(message.data, message_type)
+        except Exception:  # rclpy's RMWError, which is not public
+            self._node.get_logger().warning(
+                f'{message.topic}: the first message does not decode, subscribers will not get it'
+            )
 
     def _tell(self, now: int) -> None:
         """Publish /clock, also while time stands still: somebody may come to it."""

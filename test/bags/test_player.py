@@ -320,6 +320,24 @@ def test_what_is_not_cdr_is_not_published(graph, tmp_path):
     assert "/number (its messages are 'json', expected cdr)" in graph.warnings[0]
 
 
+def test_first_message_that_does_not_decode_is_told_and_played(graph, tmp_path):
+    data = serialize_message(Int64(data=7))
+    with BagWriter(tmp_path / 'bag') as bag:
+        bag.add_topic('/number', INT64)
+        bag.add_topic('/cut', INT64)
+        for k in range(3):
+            bag.write('/number', data, EPOCH + k, EPOCH + k)
+            bag.write('/cut', data[:9], EPOCH + k, EPOCH + k)
+    heard = []
+    graph.listener.create_subscription(Int64, '/cut', heard.append, 10, raw=True)
+    graph.play(part_of(BagReader(tmp_path / 'bag')))
+    graph.spin_to_the_end()
+    graph.spin_until(lambda: len(heard) == 3)
+    assert heard == [data[:9]] * 3
+    (warning,) = [warning for warning in graph.warnings if 'decode' in warning]
+    assert warning.startswith('/cut: the first message does not decode')
+
+
 def test_bag_that_cannot_be_read_further_ends_the_play_with_the_error(graph, tmp_path):
     graph.listen(Int64, '/number')
     bag = write(tmp_path / 'bag', [0, 1, 2])
