@@ -56,8 +56,8 @@ class BagWriter:
 
     What was written is on the disk at the latest a second later, as long as messages keep coming
     or `flush` is called, so that little is lost if the process dies or the power fails. A bag that
-    was not closed has no ``metadata.yaml`` and its last file no index (``ros2 bag reindex`` makes
-    them), but can be read up to its last whole chunk.
+    was not closed has no ``metadata.yaml``, which ``ros2 bag reindex`` makes, and its last file no
+    index, but can be read up to its last whole chunk.
 
     When the disk is full or fails, the method called next raises OSError. The bag then ends with
     the last chunk that went onto the disk whole, like one that was not closed.
@@ -122,8 +122,13 @@ class BagWriter:
 
     @property
     def message_count(self) -> int:
-        """Number of messages written."""
+        """Number of messages written; some of the last are missing in the bag if it `failed`."""
         return self._messages.count
+
+    @property
+    def failed(self) -> bool:
+        """Whether an error of the disk has been raised, and the bag ended."""
+        return self._disk.failed
 
     @property
     def file_count(self) -> int:
@@ -227,7 +232,7 @@ class BagWriter:
         if self._closed:
             return
         self._closed = True
-        failed = self._disk.failed
+        failed = self.failed
         try:
             if not failed:
                 self._finish_file()

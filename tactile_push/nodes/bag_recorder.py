@@ -128,8 +128,9 @@ class BagRecorder(Node):
 
     def _so_far(self) -> str:
         duration = time.monotonic() - self._began
+        bound = 'at most ' if self._writer.failed else ''
         return (
-            f'{self._writer.message_count} messages in {duration:.1f} s, '
+            f'{bound}{self._writer.message_count} messages in {duration:.1f} s, '
             f'{self._writer.byte_count / 1e6:.3f} MB,'
         )
 

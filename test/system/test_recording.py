@@ -262,16 +262,15 @@ def test_full_disk_ends_the_recorder_with_one_clear_error(
     observer.wait_for(ended, 'the end of the recorder')
     assert process.returncode == 1
     path = bag / 'bag_0.mcap'
-    errors = [
-        line
-        for line in nodes.log('bag_recorder').read_text().splitlines()
-        if not line.startswith('[INFO]')
-    ]
+    lines = nodes.log('bag_recorder').read_text().splitlines()
+    errors = [line for line in lines if not line.startswith('[INFO]')]
     assert errors == [f'bag_recorder: {path}: No space left on device']
     assert [file.name for file in bag.iterdir()] == ['bag_0.mcap']
     read = numbers(path)
     assert read == list(range(len(read)))
     assert len(read) > 1000
+    (said,) = [line for line in lines if 'recorded at most ' in line]
+    assert int(said.split('at most ')[1].split()[0]) > len(read)  # a chunk did not fit
 
 
 def test_command_records_until_it_is_interrupted(
