@@ -35,7 +35,7 @@ def test_controller_starts_when_the_object_is_sensed(
     nodes.start('sensor_driver', {**device, **simulated})
     nodes.start('contact_geometry', simulated, config=config)
     nodes.start('push_controller', {'autostart': False, **simulated}, config=config)
-    experiment = nodes.start('experiment', {'bag': str(bag), 'steps': 20, **simulated})
+    experiment = nodes.start('experiment', {'bag': str(bag), 'steps': 200, **simulated})
     others = {'contact': 3, 'push_controller/state': 2}  # the observer, too
     observer.wait_for(
         lambda: (
@@ -50,7 +50,7 @@ def test_controller_starts_when_the_object_is_sensed(
     assert experiment.wait(PATIENCE) == 0
     pushed = read_states(bag, '/push_controller/state')
     sensed = read_states(bag, '/active_sensing/state')
-    assert len(pushed['stamp']) > 20
+    assert len(pushed['stamp']) > 200
     # When both have found one another only they know; a look lasts longer than that takes.
     assert sensed['stamp'][0] <= pushed['stamp'][2]
     assert sensed['readings'][0] == 1.0
