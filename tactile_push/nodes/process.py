@@ -27,16 +27,19 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
 from tactile_push.nodes.executor import Executor
+from tactile_push.nodes.last_resort import exit_after
 from tactile_push.nodes.parameters import ConfigurationError
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # by a person, a manager, a terminal
+FAREWELL = 2.0  # for the middleware to leave, once all else has ended [s]
 
 
 def run(node_class: type[Node]) -> int:
     """Run a node until SIGINT, SIGTERM, SIGHUP or the end of its context.
 
     The signals are taken here rather than by rclpy, whose handler ends the context before a last
-    command could be sent.
+    command could be sent. The process ends with it: should the middleware not leave in time, it
+    does so without.
 
     Parameters
     ----------
@@ -74,24 +77,31 @@ def run(node_class: type[Node]) -> int:
             )
         node = node_class()
     except (ConfigurationError, ParameterException) as error:  # the latter of use_sim_time
+        status = _refuse(node_class, str(error))
+        exit_after(FAREWELL, status)
         rclpy.try_shutdown()
-        return _refuse(node_class, str(error))
+        return status
     executor = Executor()
     executor.add_node(node)
     status = 0
     try:
-        try:
-            while not stopping and rclpy.ok():
-                executor.spin_once()
-        except ExternalShutdownException:
-            pass
-        finally:
-            executor.shutdown()
-            node.destroy_node()
-    except OSError as error:
-        status = 1
-        where = '' if error.filename is None else f'{error.filename}: '
-        print(f'{node_class.NAME}: {where}{error.strerror or error}', file=sys.stderr)
+        with node.handle:  # in use, so the middleware loses the node only at the end of the block
+            try:
+                try:
+                    while not stopping and rclpy.ok():
+                        executor.spin_once()
+                except ExternalShutdownException:
+                    pass
+                finally:
+                    executor.shutdown()
+                    node.destroy_node()
+            except OSError as error:
+                status = 1
+                where = '' if error.filename is None else f'{error.filename}: '
+                print(f'{node_class.NAME}: {where}{error.strerror or error}', file=sys.stderr)
+            # Fast DDS built for an old C library waits for ever, without letting go of the
+            # interpreter, if it is just being told of another node that comes or goes.
+            exit_after(FAREWELL, status)
     finally:
         rclpy.try_shutdown()
         # Python restores its own handlers at exit, and an impatient second signal would show.

@@ -137,6 +137,93 @@ def test_second_signal_does_not_disturb_the_end(environment, observer):
         assert (out, err) == ('', '')
 
 
+def run_program(environment, program):
+    """Run a program that makes a node of its own and interrupts it."""
+    preamble = """
+import ctypes, os, signal, sys, time
+import rclpy
+from rclpy.node import Node
+from tactile_push.nodes import process
+from tactile_push.nodes.parameters import ConfigurationError
+
+class Own(Node):
+    NAME, PARAMETERS = 'own', ()
+
+    def __init__(self):
+        super().__init__(self.NAME)
+        self.create_timer(0.01, lambda: signal.raise_signal(signal.SIGINT))
+
+def hold():
+    ctypes.PyDLL(None).sleep(30)  # with the interpreter's lock, so that no thread runs
+    os._exit(7)
+
+"""
+    return subprocess.run(
+        [sys.executable, '-c', preamble + program],
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+    )
+
+
+def test_middleware_that_does_not_let_go_of_a_node_does_not_keep_it(environment):
+    program = """
+from rclpy.impl.implementation_singleton import rclpy_implementation
+
+class Handle(rclpy_implementation.Node):
+    leaving = False
+
+    def destroy_when_not_in_use(self):
+        super().destroy_when_not_in_use()
+        self.leaving = True
+        if not self.pointer:
+            hold()
+
+    def __exit__(self, *exception):
+        super().__exit__(*exception)
+        if self.leaving:
+            hold()
+
+rclpy_implementation.Node = Handle
+sys.exit(process.run(Own))
+"""
+    done = run_program(environment, program)
+    assert (done.returncode, done.stdout, done.stderr) == (0, '', '')
+
+
+def test_middleware_that_does_not_let_go_of_a_refused_node_does_not_keep_it(environment):
+    program = """
+class Refused(Own):
+    def __init__(self):
+        super().__init__()
+        raise ConfigurationError('no such thing')
+
+rclpy.try_shutdown = hold
+sys.exit(process.run(Refused))
+"""
+    done = run_program(environment, program)
+    assert (done.returncode, done.stdout, done.stderr) == (2, '', 'own: no such thing\n')
+
+
+@pytest.mark.parametrize(('end', 'status'), [('pass', 0), ('raise OSError(28, "full")', 1)])
+def test_node_may_take_its_time_to_end(environment, end, status):
+    program = f"""
+class Slow(Own):
+    def destroy_node(self):
+        time.sleep(3.0 * process.FAREWELL)
+        print('done', flush=True)
+        super().destroy_node()
+        {end}
+
+process.FAREWELL = 0.2
+sys.exit(process.run(Slow))
+"""
+    done = run_program(environment, program)
+    assert (done.returncode, done.stdout) == (status, 'done\n')
+    assert done.stderr == ('own: full\n' if status else '')
+
+
 def test_help_lists_every_parameter_with_default_and_unit(environment):
     done = finish(environment, 'contact_geometry', '--help')
     assert (done.returncode, done.stderr) == (0, '')
