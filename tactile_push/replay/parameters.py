@@ -40,6 +40,7 @@ TOLD = {
     'contact_geometry': {'joint_names'},
     'push_controller': {'control_rate', 'joint_names', *(link.name for link in LINKS)},
 }
+OF_EVERY_NODE = ('use_sim_time',)  # the bag's time is the only one here
 OF_OUTLINE = ('disk_radius', 'edge')  # what another outline replaces, too
 
 ByNode = dict[str, dict[str, Any]]  # values by node and name
@@ -95,6 +96,7 @@ def read_config(file: Path | None, namespace: str) -> ByNode:
                     raise ValueError(f'{file}: {pattern}: expected ros__parameters: with values')
                 values[node].update(given)
     known = [parameter.name for parameters in NODES.values() for parameter in parameters]
+    known += OF_EVERY_NODE
     for name in {name for given in values.values() for name in given} - set(known):
         similar = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
         if similar:

@@ -18,6 +18,7 @@ import pytest
 
 from tactile_push.replay.parameters import (
     changed_parameters,
+    check_config,
     names_node,
     read_config,
     recorded_parameters,
@@ -133,6 +134,13 @@ def test_file_that_says_nothing_of_use_is_refused_with_the_place(tmp_path, text,
         read_config(file, '/')
     assert str(file) in str(refused.value)
     assert '\n' not in str(refused.value)
+
+
+def test_clock_of_the_nodes_may_stand_in_the_file(tmp_path):
+    file = tmp_path / 'simulated.yaml'
+    file.write_text('/**:\n  ros__parameters:\n    use_sim_time: true\n    kp: 0.1\n')
+    assert read_config(file, '/')['push_controller']['kp'] == 0.1
+    check_config(file, ['/'])
 
 
 def test_event_tells_what_changed():
