@@ -55,7 +55,7 @@ OBJECT = (
     ),
     Parameter(
         'l_share',
-        0.075,
+        0.085,
         '',
         'standard deviation of the distance from an edge to the centre of mass, as a share of it',
         0.0,

@@ -21,13 +21,13 @@ import numpy as np
 from tactile_push.estimation import hypotheses
 from tactile_push.estimation.hypotheses import THETA, D
 from tactile_push.estimation.mixture import quantile
-from tactile_push.estimation.prior import NONE, SOME, STICKS, Prior, spread
+from tactile_push.estimation.prior import Prior, spread
 from tactile_push.mechanics.compiled import Array
 
 WAY = 1e-3  # a longer push is taken in parts [m]
-EXCLUDED = 0.03  # a kind of friction with that much of the best one's evidence is excluded
+EXCLUDED = 0.05  # a kind of friction with that much of the best one's evidence is excluded
 LOWER, UPPER = 0.025, 0.975
-GONE = 16.0  # a hypothesis that is less likely than the best by exp(GONE) is given up
+GONE = 11.0  # a hypothesis that is less likely than the best by exp(GONE) is given up
 
 
 @dataclass(frozen=True)
@@ -36,33 +36,44 @@ class Liberties:
 
     Parameters
     ----------
-    scatter : float, optional
-        Standard deviation of a push's turn, as a share of it.
-    slip : float, optional
-        Standard deviation of a push's slip, as a share of it.
     growth : tuple of float, optional
-        Mean and standard deviation of the share by which c^2 grows with (omega c/|v|)^2, as it does
-        under most supports.
+        Mean and standard deviation of how much c^2 grows while the object turns, as a share of it
+        (`resistance`): 0 on an ellipsoid, 1.9 to 2.9 under most pressures.
+    shape : tuple of float, optional
+        The same of how far c^2 depends on the direction of motion as the second moment of the
+        outline's area does: 0 on an ellipsoid, 1 under uniform pressure.
     drift : float, optional
         Standard deviation of the change of ln(c) while the direction in which the contact moves
         changes by 1 rad, or the turn per l of way does; it grows with the root of the change.
+    scatter : float, optional
+        Standard deviation of the turn over 5 mm of way, as a share of it.
+    skew : float, optional
+        Standard deviation over 5 mm of way of the angle between the force and the motion of the
+        centre of mass, for a force at 45 degrees to the normal and a turn of 1 rad per l [rad].
 
     Raises
     ------
     ValueError
-        If a number is negative or not finite.
+        If a number is not finite, or a standard deviation negative.
     """
 
-    scatter: float = 0.1
-    slip: float = 0.5
-    growth: tuple[float, float] = (1.5, 1.5)
-    drift: float = 0.05
+    growth: tuple[float, float] = (1.5, 1.2)
+    shape: tuple[float, float] = (0.5, 0.5)
+    drift: float = 0.04
+    scatter: float = 0.013
+    skew: float = 0.1
 
     def __post_init__(self) -> None:
-        numbers = {'scatter': self.scatter, 'slip': self.slip, 'drift': self.drift}
-        for name, value in (numbers | {'growth': self.growth[1]}).items():
+        for name in ('drift', 'scatter', 'skew'):
+            value = getattr(self, name)
             if not (math.isfinite(value) and value >= 0.0):
                 raise ValueError(f'{name}: expected a finite number of 0 or more, got {value}')
+        for name in ('growth', 'shape'):
+            mean, deviation = getattr(self, name)
+            if not (math.isfinite(mean) and math.isfinite(deviation) and deviation >= 0.0):
+                raise ValueError(
+                    f'{name}: expected a mean and a standard deviation, got {mean}, {deviation}'
+                )
 
 
 class Bank:
@@ -103,7 +114,8 @@ class Bank:
         self._noise = noise
         self._outlier = outlier
         self._curved = curved
-        self._first = spread(prior, radius, liberties.growth)
+        self._first = spread(prior, radius, liberties.growth, liberties.shape)
+        self._moments = np.array(prior.moments)
         self.start(math.nan)
 
     def start(self, theta: float) -> None:
@@ -132,9 +144,9 @@ class Bank:
 
         Returns
         -------
-        mean : ndarray, shape (7,)
+        mean : ndarray, shape (8,)
             The mean.
-        covariance : ndarray, shape (7, 7)
+        covariance : ndarray, shape (8, 8)
             The covariance.
         """
         weights = self.weights
@@ -174,14 +186,14 @@ class Bank:
         """
         weights = self.weights
         evidence = np.bincount(self._kinds, weights, minlength=3) / self._shares
+        ends = np.searchsorted(self._kinds, range(len(evidence) + 1))
         lower, upper = math.inf, -math.inf
-        for kind in (NONE, SOME, STICKS):
-            if evidence[kind] > EXCLUDED * max(evidence):
-                members = self._kinds == kind
-                means = self._means[members, which]
-                variances = self._covariances[members, which, which]
-                lower = min(lower, quantile(weights[members], means, variances, LOWER))
-                upper = max(upper, quantile(weights[members], means, variances, UPPER))
+        for kind in np.flatnonzero(evidence > EXCLUDED * max(evidence)):
+            members = slice(ends[kind], ends[kind + 1])
+            means = self._means[members, which]
+            variances = self._covariances[members, which, which]
+            lower = min(lower, quantile(weights[members], means, variances, LOWER))
+            upper = max(upper, quantile(weights[members], means, variances, UPPER))
         return min(max(lower, low), high), max(min(upper, high), low)
 
     def push(self, v_x: float, v_y: float, duration: float) -> None:
@@ -201,11 +213,12 @@ class Bank:
                 self._means,
                 self._covariances,
                 self._motions,
+                self._moments,
                 v_x,
                 v_y,
                 duration / parts,
                 liberties.scatter,
-                liberties.slip,
+                liberties.skew,
                 liberties.drift,
                 self._curved,
             )

@@ -31,6 +31,7 @@ import math
 
 import numpy as np
 
+from tactile_push.estimation.resistance import cone_of_angle
 from tactile_push.mechanics.compiled import Array, compiled, equation
 
 THETA_LOW, THETA_HIGH = 0, 1  # [rad]
@@ -39,7 +40,7 @@ C_SQUARED_LOW, C_SQUARED_HIGH = 4, 5  # [m^2]
 ALPHA_LOW, ALPHA_HIGH = 6, 7  # [rad]
 FACES = 8
 
-STEEPEST = math.atan(100.0)  # an edge of the motion cone beyond it is that far from the normal
+STEEPEST = 100.0  # slope beyond which an edge of the motion cone is along the edge of the object
 ANGLE_SLACK = 2e-6  # more than the midpoint rule is wrong by in half a millimetre [rad]
 LENGTH_SLACK = 1e-7  # the same [m]
 
@@ -87,10 +88,11 @@ def left_edge(
     d_high: float,
     c_squared_low: float,
     c_squared_high: float,
-    alpha: float,
+    cos_alpha: float,
+    sin_alpha: float,
     l_low: float,
     l_high: float,
-) -> tuple[float, float]:
+) -> tuple[float, float, float, float]:
     """Bound the direction of the motion cone's left edge.
 
     The force (-sin alpha, cos alpha) moves the contact at
@@ -101,52 +103,89 @@ def left_edge(
     ----------
     d_low, d_high, c_squared_low, c_squared_high, l_low, l_high : float
         Bounds of d [m], c^2 [m^2] and l [m].
-    alpha : float
-        Half angle of the friction cone [rad].
+    cos_alpha, sin_alpha : float
+        The friction cone.
 
     Returns
     -------
-    right, left : float
-        Bounds of the edge's angle from the normal, counterclockwise [rad].
+    right_t, right_n, left_t, left_n : float
+        The rightmost and the leftmost direction, along tangent and normal.
     """
-    cos, sin = max(math.cos(alpha), 0.0), math.sin(alpha)
     dl_low, dl_high = times(d_low, d_high, l_low, l_high)
     dd_low, dd_high = squared(d_low, d_high)
-    t_low = dl_low * cos - (c_squared_high + l_high * l_high) * sin
-    t_high = dl_high * cos - (c_squared_low + l_low * l_low) * sin
-    n_low = (c_squared_low + dd_low) * cos - dl_high * sin
-    n_high = (c_squared_high + dd_high) * cos - dl_low * sin
+    t_low = dl_low * cos_alpha - (c_squared_high + l_high * l_high) * sin_alpha
+    t_high = dl_high * cos_alpha - (c_squared_low + l_low * l_low) * sin_alpha
+    n_low = (c_squared_low + dd_low) * cos_alpha - dl_high * sin_alpha
+    n_high = (c_squared_high + dd_high) * cos_alpha - dl_low * sin_alpha
     if n_high <= 0.0:
-        return STEEPEST, STEEPEST
-    right = math.atan2(-t_high, n_high if t_high < 0.0 else max(n_low, 0.0))
+        return -STEEPEST, 1.0, -STEEPEST, 1.0
+    right_n = n_high if t_high < 0.0 else max(n_low, 0.0)
     if n_low <= 0.0:
-        return right, STEEPEST
-    return right, math.atan2(-t_low, n_low if t_low < 0.0 else n_high)
+        return t_high, right_n, -STEEPEST, 1.0
+    return t_high, right_n, t_low, n_low if t_low < 0.0 else n_high
 
 
 @equation
-def slope(angle: float) -> float:
-    """Give v_t / v_n of a direction.
+def slope(t: float, n: float) -> float:
+    """Give t/n of a direction.
 
     Parameters
     ----------
-    angle : float
-        Its angle from the normal, counterclockwise [rad].
+    t, n : float
+        The direction along tangent and normal.
 
     Returns
     -------
     float
-        The slope; minus infinity of what leans to the left that far, where nothing slips.
+        The slope, `STEEPEST` at the most; minus infinity of what leans to the left that far, where
+        nothing slips.
     """
-    if angle >= STEEPEST:
-        return -math.inf
-    return -math.tan(max(angle, -STEEPEST))
+    if n * STEEPEST <= abs(t):
+        return STEEPEST if t > 0.0 else -math.inf
+    return t / n
+
+
+@equation
+def left_slopes(
+    d_low: float,
+    d_high: float,
+    cell: Array,
+    friction: Array,
+    l_low: float,
+    l_high: float,
+    cos: float,
+    sin: float,
+) -> tuple[float, float]:
+    """Bound the slope of the motion cone's left edge, for all frictions in a cell.
+
+    Parameters
+    ----------
+    d_low, d_high, l_low, l_high : float
+        Bounds of d and l [m].
+    cell : ndarray, shape (8,)
+        The cell.
+    friction : ndarray, shape (4,)
+        Cosine and sine of its least and of its greatest alpha.
+    cos, sin : float
+        Cosine and sine of how far the edge may be from the ellipsoid's.
+
+    Returns
+    -------
+    nearest, farthest : float
+        The greatest and the least slope.
+    """
+    low, high = cell[C_SQUARED_LOW], cell[C_SQUARED_HIGH]
+    t, n, _, _ = left_edge(d_low, d_high, low, high, friction[0], friction[1], l_low, l_high)
+    nearest = slope(cos * t + sin * n, cos * n - sin * t)
+    _, _, t, n = left_edge(d_low, d_high, low, high, friction[2], friction[3], l_low, l_high)
+    return nearest, slope(cos * t - sin * n, cos * n + sin * t)
 
 
 @equation
 def rate_bounds(
     theta: float,
     cell: Array,
+    friction: Array,
     v_x: float,
     v_y: float,
     l_low: float,
@@ -155,7 +194,7 @@ def rate_bounds(
     r_high: float,
     theta_0: float,
     share: float,
-    angle: float,
+    lean: tuple[float, float],
 ) -> tuple[float, float, float, float]:
     """Bound the rates for one theta and everything else in a cell.
 
@@ -163,8 +202,8 @@ def rate_bounds(
     ----------
     theta : float
         Angle of the edge [rad].
-    cell : ndarray, shape (8,)
-        The cell.
+    cell, friction
+        As `left_slopes` takes them.
     v_x, v_y : float
         Velocity of the finger relative to the support [m/s].
     l_low, l_high : float
@@ -175,8 +214,8 @@ def rate_bounds(
         The first reading [rad].
     share : float
         How far omega may be from the ellipsoid's, as a share of it, below 1.
-    angle : float
-        How far an edge of the motion cone may be from the ellipsoid's [rad].
+    lean : tuple of float
+        Cosine and sine of how far an edge of the motion cone may be from the ellipsoid's.
 
     Returns
     -------
@@ -192,16 +231,13 @@ def rate_bounds(
     d_low, d_high = cell[ROLLED_LOW] - rolled_high, cell[ROLLED_HIGH] - rolled_low
     low, high = cell[C_SQUARED_LOW], cell[C_SQUARED_HIGH]
     if v_n > 0.0:
-        weak, strong = cell[ALPHA_LOW], cell[ALPHA_HIGH]
-        nearest, _ = left_edge(d_low, d_high, low, high, weak, l_low, l_high)
-        _, farthest = left_edge(d_low, d_high, low, high, strong, l_low, l_high)
-        slip_low = min(0.0, v_t - v_n * slope(nearest - angle))
-        slip_high = min(0.0, v_t - v_n * slope(farthest + angle))
+        nearest, farthest = left_slopes(d_low, d_high, cell, friction, l_low, l_high, *lean)
+        slip_low = min(0.0, v_t - v_n * nearest)
+        slip_high = min(0.0, v_t - v_n * farthest)
         # The right edge is the left one's mirror image.
-        nearest, _ = left_edge(-d_high, -d_low, low, high, weak, l_low, l_high)
-        _, farthest = left_edge(-d_high, -d_low, low, high, strong, l_low, l_high)
-        slip_low += max(0.0, v_t + v_n * slope(farthest + angle))
-        slip_high += max(0.0, v_t + v_n * slope(nearest - angle))
+        nearest, farthest = left_slopes(-d_high, -d_low, cell, friction, l_low, l_high, *lean)
+        slip_low += max(0.0, v_t + v_n * farthest)
+        slip_high += max(0.0, v_t + v_n * nearest)
     else:  # pulled along, or left standing
         slip_low, slip_high = min(0.0, v_t), max(0.0, v_t)
     turn_low, turn_high = times(d_low, d_high, v_n, v_n)
@@ -238,8 +274,10 @@ def push_cells(
     ----------
     cells : ndarray, shape (H, 8)
         The cells, changed; those that are left come first.
-    v_x, v_y, l_low, l_high, r_low, r_high, theta_0, share, angle
+    v_x, v_y, l_low, l_high, r_low, r_high, theta_0, share
         As `rate_bounds` takes them.
+    angle : float
+        How far an edge of the motion cone may be from the ellipsoid's [rad].
     duration : float
         How long [s], for half a millimetre at the most.
     d_low, d_high : float
@@ -251,46 +289,22 @@ def push_cells(
         How many are left.
     """
     left, half = 0, duration / 2.0
-    middle = np.empty(FACES)
+    middle, friction = np.empty(FACES), np.empty(4)
+    lean = math.cos(angle), math.sin(angle)
     speed = math.hypot(v_x, v_y)
+    known = v_x, v_y, l_low, l_high, r_low, r_high, theta_0, share, lean
     for h in range(len(cells)):
         cell = cells[h]
+        friction[0], friction[1] = cone_of_angle(cell[ALPHA_LOW])
+        friction[2], friction[3] = cone_of_angle(cell[ALPHA_HIGH])
         theta_low, theta_high = cell[THETA_LOW], cell[THETA_HIGH]
-        a, _, low_a, high_a = rate_bounds(
-            theta_low, cell, v_x, v_y, l_low, l_high, r_low, r_high, theta_0, share, angle
-        )
-        _, b, low_b, high_b = rate_bounds(
-            theta_high, cell, v_x, v_y, l_low, l_high, r_low, r_high, theta_0, share, angle
-        )
+        a, _, low_a, high_a = rate_bounds(theta_low, cell, friction, *known)
+        _, b, low_b, high_b = rate_bounds(theta_high, cell, friction, *known)
         middle[:] = cell
         middle[ROLLED_LOW] += half * min(low_a, low_b)
         middle[ROLLED_HIGH] += half * max(high_a, high_b)
-        a, _, low_a, high_a = rate_bounds(
-            theta_low + half * a,
-            middle,
-            v_x,
-            v_y,
-            l_low,
-            l_high,
-            r_low,
-            r_high,
-            theta_0,
-            share,
-            angle,
-        )
-        _, b, low_b, high_b = rate_bounds(
-            theta_high + half * b,
-            middle,
-            v_x,
-            v_y,
-            l_low,
-            l_high,
-            r_low,
-            r_high,
-            theta_0,
-            share,
-            angle,
-        )
+        a, _, low_a, high_a = rate_bounds(theta_low + half * a, middle, friction, *known)
+        _, b, low_b, high_b = rate_bounds(theta_high + half * b, middle, friction, *known)
         # Between the faces of theta the velocity of slip bends by no more than this.
         slack = LENGTH_SLACK + speed * duration * (theta_high - theta_low) ** 2
         theta_low += duration * a - ANGLE_SLACK

@@ -27,6 +27,7 @@ from tactile_push.mechanics.compiled import Array
 
 OF_POSE = (THETA, D, L, R)
 NOISE_BOUND = 5.0  # largest error of a reading for what is guaranteed, in its deviations
+SLENDER_DRIFT, SLENDER_SKEW = 0.1, 0.15  # of the liberties, by the logarithm of the slenderness
 ANY_ANGLE = math.pi**2 / 12.0  # variance of a theta of which nothing is known [rad^2]
 
 
@@ -61,7 +62,7 @@ class Estimate:
         Contact along the edge [m].
     c : Quantity
         Ratio m_max / f_max [m]: that of the ellipsoid which turns as the object does when it
-        hardly turns.
+        hardly turns, in the middle between the directions of its motion.
     mu_c : Quantity
         Friction between finger and object; its mean is that of the angle of friction.
     theta : float
@@ -96,8 +97,9 @@ class ContactEstimator:
     Each push tells something, not only those of a translating object: omega depends on d, c,
     mu_c and l. A bank of Gaussian hypotheses (`hypotheses`) gives the mean and the 95 % interval,
     cells moved by bounds (`cells`) give what is guaranteed. The object is the mechanics' own, with
-    liberties, for its limit surface is no ellipsoid: turn and slip of each push scatter by a share
-    of themselves, and c grows with the turning rate and wanders as the motion changes.
+    liberties, for its limit surface is no ellipsoid (`resistance`): c grows by an unknown share
+    when the object turns, depends on the direction of motion by another, and wanders as the motion
+    changes; turn and slip scatter.
 
     mu_c is no chance variable, and an interval that is right on average over frictions would be
     wrong for one. The 95 % interval is therefore the hull of those for no friction, for some and
@@ -119,10 +121,10 @@ class ContactEstimator:
         Probability that a reading is wrong altogether.
     liberties : Liberties, optional
         How far the object may be from one with an ellipsoidal limit surface, for the mean and the
-        95 % interval; by default what `Liberties` has.
+        95 % interval; by default what `Liberties` has, more for a slender object.
     bounds : ModelBounds, optional
         The same for what is guaranteed; by default noise up to five standard deviations and the
-        bounds on the model that `ModelBounds` has.
+        bounds on the model that `ModelBounds` has, wider for a slender object.
     disk : bool, optional
         Whether the object is a disk about its centre of mass: d of the prior is 0 then, its l the
         disk's radius, and nothing but the prior is guaranteed.
@@ -167,8 +169,8 @@ class ContactEstimator:
         self.radius = radius
         self.radius_sigma = radius_sigma
         self.outlier = outlier
-        self.liberties = liberties or Liberties()
-        self.bounds = bounds or ModelBounds(NOISE_BOUND * noise)
+        self.liberties = liberties or _liberties(prior.slenderness)
+        self.bounds = bounds or _bounds(prior.slenderness, noise)
         self.disk = disk
         radii = radius, radius_sigma
         self._bank = Bank(prior, radii, self.liberties, noise, outlier, disk)
@@ -318,3 +320,23 @@ class ContactEstimator:
         # What is rather an outlier than not has no bounds.
         if self._guaranteed is not None and log_density > watch.outlier:
             self._guaranteed.read(theta)
+
+
+def _liberties(slenderness: float) -> Liberties:
+    """Give the liberties of an object; a slender one's motion and force agree less."""
+    liberties, log = Liberties(), math.log(slenderness)
+    return replace(
+        liberties,
+        drift=math.hypot(liberties.drift, SLENDER_DRIFT * log),
+        skew=math.hypot(liberties.skew, SLENDER_SKEW * log),
+    )
+
+
+def _bounds(slenderness: float, noise: float) -> ModelBounds:
+    """Give the bounds of an object that resists turning by the direction of its motion.
+
+    The ratio of most and least turn grows by the root of the slenderness.
+    """
+    bounds = ModelBounds(NOISE_BOUND * noise)
+    turn = math.tanh(math.atanh(bounds.turn) + math.log(slenderness) / 4.0)
+    return replace(bounds, turn=turn)

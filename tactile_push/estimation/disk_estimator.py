@@ -64,9 +64,9 @@ class DiskEstimator:
         *,
         c: tuple[float, float] = (0.005, 0.036),
         mu_c: tuple[float, float] = (0.0, math.inf),
-        l_share: float = 0.075,
+        l_share: float = 0.085,
         radius: float = 0.0135,
-        radius_share: float = 0.075,
+        radius_share: float = 0.085,
         outlier: float = 0.001,
     ) -> None:
         estimator = ContactEstimator(

@@ -13,11 +13,13 @@
 # limitations under the License.
 """The straight edges of an outline, one of which is pushed."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
+from tactile_push.estimation.prior import ROUND
 from tactile_push.mechanics import Outline
 from tactile_push.mechanics.compiled import Array
 from tactile_push.mechanics.contact import LENGTH, TAU, D, L
@@ -39,16 +41,16 @@ class Edge:
         Distance from the edge to the centre of mass [m].
     angle : float
         Its direction in the object's frame [rad]: the object's angle is theta less this one.
-    slenderness : float, optional
-        Ratio of the principal second moments of the object's area, 1 or more: the more slender, the
-        more its resistance to turning depends on the direction in which it is pushed.
+    moments : tuple of float, optional
+        Second moments of the object's area along the edge, mixed and along the normal, divided by
+        the root of their determinant: what a slender object's resistance to turning depends on.
     """
 
     number: int
     d: tuple[float, float]
     l: float
     angle: float
-    slenderness: float = 1.0
+    moments: tuple[float, float, float] = ROUND
 
     @property
     def length(self) -> float:
@@ -106,25 +108,33 @@ def edges_of(vertices: npt.ArrayLike) -> tuple[Edge, ...]:
         raise ValueError(
             f'vertices: expected a polygon about its centre of mass, (0, 0), got {corners.tolist()}'
         )
-    slenderness = _slenderness(corners)
+    moments = _moments(corners)
     return tuple(
         Edge(
             number,
             (float(row[D]), float(row[D] + row[LENGTH])),
             float(row[L]),
             float(row[TAU]),
-            slenderness,
+            _seen_from(moments, float(row[TAU])),
         )
         for number, row in enumerate(rows)
     )
 
 
-def _slenderness(corners: Array) -> float:
-    """Give the ratio of the principal second moments, from triangles about the centre of mass."""
+def _moments(corners: Array) -> Array:
+    """Give the second moments about the origin over the root of their determinant, (2, 2)."""
     following = np.roll(corners, -1, axis=0)
     areas = corners[:, 0] * following[:, 1] - corners[:, 1] * following[:, 0]
+    # Of every triangle at the origin, from its corners and the sum of them.
     moments = sum(
         (points.T * areas) @ points for points in (corners, following, corners + following)
     )
-    least, most = np.linalg.eigvalsh(moments)
-    return float(most / least)
+    return moments / math.sqrt(np.linalg.det(moments))
+
+
+def _seen_from(moments: Array, angle: float) -> tuple[float, float, float]:
+    """Give second moments in a frame that is turned."""
+    cos, sin = math.cos(angle), math.sin(angle)
+    turn = np.array([[cos, sin], [-sin, cos]])
+    turned = turn @ moments @ turn.T
+    return float(turned[0, 0]), float(turned[0, 1]), float(turned[1, 1])

@@ -13,7 +13,7 @@
 # limitations under the License.
 """Many guesses of where on the edge the finger is, each moved by the mechanics and corrected.
 
-A hypothesis is a Gaussian of the seven numbers that the mechanics needs, in the order of the
+A hypothesis is a Gaussian of the eight numbers that the mechanics needs, in the order of the
 columns below, and a weight. A push moves its mean and covariance through `pushed_twist` at points
 around the mean (the cubature rule, exact to the third order), so that sticking, slipping and the
 passage between them need no derivatives. A reading of theta corrects it as a Kalman filter does,
@@ -25,6 +25,7 @@ import math
 
 import numpy as np
 
+from tactile_push.estimation.resistance import LEAST_COSINE, cone_of_angle, settled
 from tactile_push.mechanics.compiled import Array, compiled, equation
 from tactile_push.mechanics.motion import pushed_twist
 
@@ -34,62 +35,15 @@ LOG_C = 2  # ln(c/1 m), which has no bound that a Gaussian could cross
 ALPHA = 3  # half angle of the friction cone, atan(mu_c) [rad]
 L = 4  # distance from the edge to the centre of mass [m]
 R = 5  # radius of the finger's disk [m]
-GROWTH = 6  # by how much c^2 grows, as a share of it, with (omega c/|v|)^2
-UNKNOWNS = 7
+GROWTH = 6  # by how much c^2 grows while the object turns, see `resistance`
+SHAPE = 7  # how far c^2 depends on the direction of motion, see `resistance`
+UNKNOWNS = 8
 
-RIGHT_ANGLE = math.pi / 2.0
 SMOOTH = 5e-3  # way over which a change of the motion is felt [m]
-SLOWEST = 1e-24  # squared speed of a finger that stands [m^2/s^2]
+SHORTEST = 1e-9  # way that counts as none [m]
+STEEPEST = 3.0  # tangent of a force's angle that counts
 SMALLEST, LARGEST = math.log(1e-4), math.log(10.0)  # c that counts as none, and as any [ln m]
-LEAST_GROWN = 0.1  # c^2 does not shrink to less than this share of it
 NEVER = 1e-18  # a variance up to this, in units of the unknown, is none
-
-
-@equation
-def rates(
-    theta: float,
-    d: float,
-    c_squared: float,
-    alpha: float,
-    l: float,
-    v_x: float,
-    v_y: float,
-) -> tuple[float, float]:
-    """Give the rates of turning and slipping while a straight edge, or a tangent, is pushed.
-
-    Parameters
-    ----------
-    theta : float
-        Angle of the edge [rad].
-    d : float
-        Contact along the edge [m].
-    c_squared : float
-        c^2 [m^2], positive.
-    alpha : float
-        Half angle of the friction cone [rad]; what is beyond 0 and pi/2 counts as the bound.
-    l : float
-        Distance from the edge to the centre of mass [m].
-    v_x, v_y : float
-        Velocity of the finger relative to the support [m/s].
-
-    Returns
-    -------
-    omega : float
-        Rate of turning [rad/s].
-    v_slip : float
-        Velocity of slip [m/s], eq. (14).
-    """
-    cos, sin = math.cos(theta), math.sin(theta)
-    cos_alpha, sin_alpha = 1.0, 0.0
-    if alpha >= RIGHT_ANGLE:
-        cos_alpha, sin_alpha = 0.0, 1.0
-    elif alpha > 0.0:
-        cos_alpha, sin_alpha = math.cos(alpha), math.sin(alpha)
-    _, _, omega, v_slip, _ = pushed_twist(
-        cos * v_x + sin * v_y, cos * v_y - sin * v_x, d, -l, cos_alpha, sin_alpha,
-        math.sqrt(c_squared),
-    )  # fmt: skip
-    return omega, v_slip
 
 
 @equation
@@ -101,6 +55,8 @@ def advance(
     l: float,
     r: float,
     growth: float,
+    shape: float,
+    moments: Array,
     v_x: float,
     v_y: float,
     duration: float,
@@ -110,12 +66,18 @@ def advance(
 
     Parameters
     ----------
-    theta, d, c_squared, alpha, l, v_x, v_y
-        As `rates` takes them; c^2 is that of an object that hardly turns.
+    theta : float
+        Angle of the edge, or of the tangent [rad].
+    d, l : float
+        Contact along the edge and distance from there to the centre of mass [m].
+    alpha : float
+        Half angle of the friction cone [rad]; what is beyond 0 and pi/2 counts as the bound.
     r : float
         Radius of the finger's disk [m].
-    growth : float
-        By how much c^2 grows, as a share of it, with (omega c/|v|)^2.
+    c_squared, growth, shape, moments
+        As `resistance` takes them.
+    v_x, v_y : float
+        Velocity of the finger relative to the support [m/s].
     duration : float
         How long [s].
     curved : bool
@@ -131,17 +93,18 @@ def advance(
     # On a disk d stays, and theta changes with the place of the tangent, too.
     along, around = (0.0, 1.0 / (l + r)) if curved else (1.0, 0.0)
     half = duration / 2.0
-    omega, v_slip = rates(theta, d, c_squared, alpha, l, v_x, v_y)
+    cos_alpha, sin_alpha = cone_of_angle(alpha)
+    cos, sin = math.cos(theta), math.sin(theta)
+    v_t, v_n = cos * v_x + sin * v_y, cos * v_y - sin * v_x
+    now, omega, v_slip = settled(
+        v_t, v_n, d, l, cos_alpha, sin_alpha, c_squared, growth, shape, moments
+    )
     way = v_slip - omega * r  # (16)
-    grown = 1.0 + growth * omega * omega * c_squared / max(v_x * v_x + v_y * v_y, SLOWEST)
-    omega, v_slip = rates(
-        theta + half * (omega + around * way),
-        d + half * along * way,
-        c_squared * max(grown, LEAST_GROWN),
-        alpha,
-        l,
-        v_x,
-        v_y,
+    theta_half, d_half = theta + half * (omega + around * way), d + half * along * way
+    cos, sin = math.cos(theta_half), math.sin(theta_half)
+    v_t, v_n = cos * v_x + sin * v_y, cos * v_y - sin * v_x
+    _, _, omega, v_slip, _ = pushed_twist(
+        v_t, v_n, d_half, -l, cos_alpha, sin_alpha, math.sqrt(now)
     )
     way = v_slip - omega * r
     return (
@@ -170,11 +133,12 @@ def predict(
     means: Array,
     covariances: Array,
     motions: Array,
+    moments: Array,
     v_x: float,
     v_y: float,
     duration: float,
     scatter: float,
-    slip_scatter: float,
+    skew: float,
     drift: float,
     curved: bool,
 ) -> None:
@@ -182,21 +146,24 @@ def predict(
 
     Parameters
     ----------
-    means : ndarray, shape (H, 7)
+    means : ndarray, shape (H, 8)
         Means, changed.
-    covariances : ndarray, shape (H, 7, 7)
+    covariances : ndarray, shape (H, 8, 8)
         Covariances, changed.
     motions : ndarray, shape (H, 2)
         How the object moved in the last pushes, changed: direction of the contact's velocity in
         the frame of the edge [rad] and turn per l of its way [rad]; NaN before the first push.
+    moments : ndarray, shape (3,)
+        As `resistance.resistance` takes them.
     v_x, v_y : float
         Velocity of the finger relative to the support [m/s].
     duration : float
         How long [s], more than 0.
     scatter : float
-        Standard deviation of the turn itself, as a share of it.
-    slip_scatter : float
-        The same of the slip.
+        Standard deviation of the turn itself, as a share of it, over 5 mm of way.
+    skew : float
+        Standard deviation of the angle between the force and the motion of the centre of mass,
+        over 5 mm of way, for a force at 45 degrees and a turn of 1 rad per l [rad].
     drift : float
         Standard deviation of the change of ln(c) while the motion changes by 1 rad; it grows with
         the root of the change.
@@ -215,7 +182,7 @@ def predict(
         for column in range(UNKNOWNS):
             uncertain += root[column, column] > 0.0
         count, weight = 2 * uncertain, 0.5 / max(uncertain, 1)
-        i, theta, d, slip = 0, 0.0, 0.0, 0.0
+        i, theta, d, slip, slips = 0, 0.0, 0.0, 0.0, 0.0
         for column in range(UNKNOWNS):
             if root[column, column] > 0.0 or (uncertain == 0 and column == 0):
                 for side in (math.sqrt(uncertain), -math.sqrt(uncertain)):
@@ -230,6 +197,8 @@ def predict(
                         moved[L],
                         moved[R],
                         moved[GROWTH],
+                        moved[SHAPE],
+                        moments,
                         v_x,
                         v_y,
                         duration,
@@ -238,6 +207,7 @@ def predict(
                     theta += weight * points[i, 0]
                     d += weight * points[i, 1]
                     slip += weight * along
+                    slips += weight * (along != 0.0)
                     i += 1
         change, l, r = theta - mean[THETA], mean[L], mean[R]
         turn = change
@@ -266,16 +236,24 @@ def predict(
                 for i in range(count):
                     value += deviations[i, j] * deviations[i, k]
                 covariance[j, k] = covariance[k, j] = weight * value
-        extra = (scatter * turn) ** 2
-        slipped = (slip_scatter * slip) ** 2
+        # Both errors last for a while, and so add up to more than independent ones of every push.
+        lasting = SMOOTH / max(way, SHORTEST)
+        turned = (scatter * turn) ** 2 * lasting
+        spin = min(1.0, abs(turn) * l / max(way, SHORTEST))
+        cos, sin = cone_of_angle(mean[ALPHA])
+        skewed = (skew * spin * 2.0 * sin * cos * slips * way) ** 2 * lasting
         if curved:
-            covariance[THETA, THETA] += (l**2 * extra + slipped) / (l + r) ** 2
+            sticks = (1.0 - slips) ** 2  # a tangent goes with the turn of a contact that sticks
+            covariance[THETA, THETA] += (l**2 * turned * sticks + skewed) / (l + r) ** 2
         else:
-            # A turn that differs from the model's rolls the contact on by -r times as much.
-            covariance[THETA, THETA] += extra
-            covariance[THETA, D] -= r * extra
-            covariance[D, THETA] -= r * extra
-            covariance[D, D] += r * r * extra + slipped
+            # A turn that differs from the model's rolls the contact on, and makes it slip: the
+            # centre of mass moves along the force, and the edge there goes with the turn.
+            steep = min(sin / max(cos, LEAST_COSINE), STEEPEST)
+            lever = r + slips * (l - math.copysign(steep, slip) * d)
+            covariance[THETA, THETA] += turned
+            covariance[THETA, D] -= lever * turned
+            covariance[D, THETA] -= lever * turned
+            covariance[D, D] += lever * lever * turned + skewed
 
 
 @compiled
@@ -294,9 +272,9 @@ def correct(
 
     Parameters
     ----------
-    means : ndarray, shape (H, 7)
+    means : ndarray, shape (H, 8)
         Means, changed.
-    covariances : ndarray, shape (H, 7, 7)
+    covariances : ndarray, shape (H, 8, 8)
         Covariances, changed.
     log_weights : ndarray, shape (H,)
         Logarithms of the weights, changed; their sum of exponentials becomes 1.

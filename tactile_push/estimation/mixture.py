@@ -41,33 +41,41 @@ def quantile(weights: Array, means: Array, variances: Array, share: float) -> fl
     float
         The value, in the unit of the means.
     """
-    total = 0.0
+    total, mean, square = 0.0, 0.0, 0.0
     for h in range(len(weights)):
         total += weights[h]
+        mean += weights[h] * means[h]
+    mean /= total
     low, high = math.inf, -math.inf
     for h in range(len(weights)):
+        square += weights[h] * (variances[h] + (means[h] - mean) ** 2)
         if weights[h] > NEGLIGIBLE * total:
             reach = REACH * math.sqrt(variances[h])
             low, high = min(low, means[h] - reach), max(high, means[h] + reach)
-    under, over, narrow, turns = -share, 1.0 - share, FINE * (high - low), 0
+    narrow, turns = FINE * (high - low), 0
+    # As of one Gaussian, whose outer quantiles are two deviations from the middle.
+    value = min(max(mean + (4.0 * share - 2.0) * math.sqrt(square / total), low), high)
     while high - low > narrow:
-        turns += 1
-        middle = (low + high) / 2.0
-        if turns % 3 != 0:  # the chord's root, which halves the bracket only sometimes
-            middle = (low * over - high * under) / (over - under)
-        below = 0.0
+        below, slope = 0.0, 0.0
         for h in range(len(weights)):
             if weights[h] > NEGLIGIBLE * total:
-                distance, deviation = middle - means[h], math.sqrt(variances[h])
+                distance, deviation = value - means[h], math.sqrt(variances[h])
                 if distance > REACH * deviation:
                     below += weights[h]
                 elif distance > -REACH * deviation:
-                    below += weights[h] * math.erfc(-distance / (math.sqrt(2.0) * deviation)) / 2.0
+                    far = distance / deviation
+                    below += weights[h] * math.erfc(-far / math.sqrt(2.0)) / 2.0
+                    slope += weights[h] * math.exp(-far * far / 2.0) / deviation
         excess = below / total - share
         if abs(excess) < EXACT:
-            return middle
+            return value
         if excess < 0.0:
-            low, under = middle, excess
+            low = value
         else:
-            high, over = middle, excess
+            high = value
+        turns += 1
+        step = low - 1.0
+        if slope > 0.0 and turns % 4 != 0:  # Newton's, which may go astray
+            step = value - excess * total * math.sqrt(math.tau) / slope
+        value = step if low < step < high else (low + high) / 2.0
     return (low + high) / 2.0

@@ -15,27 +15,23 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import compress
 
 import numpy as np
 
-from tactile_push.estimation.bank import Liberties
 from tactile_push.estimation.contact_estimator import (
-    NOISE_BOUND,
     ContactEstimator,
     Estimate,
     Quantity,
 )
 from tactile_push.estimation.contenders import Contenders
 from tactile_push.estimation.edges import Edge
-from tactile_push.estimation.guaranteed import ModelBounds
 from tactile_push.estimation.pose import object_pose
 from tactile_push.estimation.prior import Prior
 from tactile_push.mechanics.compiled import Array
 
 ROUNDING = 1e-6  # of lengths and weights, in units of themselves
-ANISOTROPY = 0.4  # drift of ln(c) by the logarithm of the slenderness
 EXCLUDED = 0.01  # an edge with that much of the best one's weight is no part of the intervals
 
 
@@ -103,7 +99,7 @@ class ObjectEstimator:
     mu_c : tuple of float, optional
         Least and most friction between finger and object, 0 to infinity.
     l_share : float, optional
-        Standard deviation of each edge's l, as a share of it: 0.075 covers errors of a tenth of l
+        Standard deviation of each edge's l, as a share of it: 0.085 covers errors of a tenth of l
         and r.
     radius : float, optional
         Effective radius of the finger's disk [m].
@@ -125,9 +121,9 @@ class ObjectEstimator:
         *,
         c: tuple[float, float] = (0.005, 0.036),
         mu_c: tuple[float, float] = (0.0, math.inf),
-        l_share: float = 0.075,
+        l_share: float = 0.085,
         radius: float = 0.0135,
-        radius_share: float = 0.075,
+        radius_share: float = 0.085,
         outlier: float = 0.001,
     ) -> None:
         if not edges:
@@ -148,13 +144,11 @@ class ObjectEstimator:
         self._contenders = Contenders(
             [
                 ContactEstimator(
-                    Prior(place.d, place.l, l_share * place.l, c, mu_c),
+                    Prior(place.d, place.l, l_share * place.l, c, mu_c, place.moments),
                     noise,
                     radius=radius,
                     radius_sigma=radius_share * radius,
                     outlier=outlier,
-                    liberties=_liberties(place.slenderness),
-                    bounds=_bounds(place.slenderness, noise),
                 )
                 for place in places
             ],
@@ -247,20 +241,3 @@ class ObjectEstimator:
             offset[2] = math.remainder(offset[2], math.tau)
             covariance += weight * np.outer(offset, offset)
         return poses[best], covariance
-
-
-def _liberties(slenderness: float) -> Liberties:
-    """Give the liberties for an object that resists turning by how it is pushed.
-
-    While it hardly turns, its c^2 is the second moment of the load along the direction of motion,
-    which lies between the principal ones.
-    """
-    liberties = Liberties()
-    return replace(liberties, drift=math.hypot(liberties.drift, ANISOTROPY * math.log(slenderness)))
-
-
-def _bounds(slenderness: float, noise: float) -> ModelBounds:
-    """Give the bounds for the same: the ratio of most and least turn grows by its root."""
-    bounds = ModelBounds(NOISE_BOUND * noise)
-    turn = math.tanh(math.atanh(bounds.turn) + math.log(slenderness) / 4.0)
-    return replace(bounds, turn=turn)

@@ -21,14 +21,18 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from tactile_push.estimation.hypotheses import ALPHA, GROWTH, LOG_C, UNKNOWNS, D, L, R
+from tactile_push.estimation.hypotheses import ALPHA, GROWTH, LOG_C, SHAPE, UNKNOWNS, D, L, R
 from tactile_push.mechanics import check_friction
 from tactile_push.mechanics.compiled import Array
 
-D_SPACING = 3.5e-3  # of the hypotheses [m]
+D_SPACING = 6e-3  # of the hypotheses [m]
+OVERLAP = 3.0  # spacing in standard deviations: side by side their density is nearly even
 D_COUNTS = (4, 40)  # the fewest and the most along an edge
-C_COUNT, ALPHA_COUNT = 4, 5  # how many share c and a finite friction
+C_COUNT, ALPHA_COUNT = 3, 16  # how many share c and a finite friction
 NONE, SOME, STICKS = range(3)  # kinds of friction: mu_c = 0, between, infinite
+ROUND = (1.0, 0.0, 1.0)  # second moments of an area without preferred direction
+ROUNDING = 1e-6
+SLENDER = 1.5  # ratio of the principal second moments from which directions differ much
 SHARES = (0.25, 0.5, 0.25)  # of the kinds, before any data
 
 
@@ -48,6 +52,9 @@ class Prior:
         Least and most c [m].
     mu_c : tuple of float, optional
         Least and most friction between finger and object, 0 to infinity.
+    moments : tuple of float, optional
+        Second moments of the object's area along the edge, mixed and along the normal, divided by
+        the root of their determinant; by default those of an area without preferred direction.
     density : callable, optional
         Probability density over (d, c, mu_c), up to a factor; by default even over d, c and the
         angle of friction, with 0 and infinity as likely as half of what is between, each.
@@ -63,6 +70,7 @@ class Prior:
     l_sigma: float = 0.0
     c: tuple[float, float] = (0.005, 0.036)
     mu_c: tuple[float, float] = (0.0, math.inf)
+    moments: tuple[float, float, float] = ROUND
     density: Callable[[float, float, float], float] | None = None
 
     def __post_init__(self) -> None:
@@ -77,10 +85,21 @@ class Prior:
             raise ValueError(f'l: expected a positive length [m], got {self.l}')
         if not 0.0 <= 3.0 * self.l_sigma < self.l:
             raise ValueError(f'l_sigma: expected 0 to a third of l [m], got {self.l_sigma}')
+        xx, xy, yy = self.moments
+        if not (xx > 0.0 and abs(xx * yy - xy * xy - 1.0) < ROUNDING):
+            raise ValueError(
+                f'moments: expected a positive form of determinant 1, got {xx, xy, yy}'
+            )
         for mu_c in self.mu_c:
             check_friction(mu_c)
         if not self.mu_c[0] <= self.mu_c[1]:
             raise ValueError(f'mu_c: expected the least friction first, got {self.mu_c}')
+
+    @property
+    def slenderness(self) -> float:
+        """Ratio of the principal second moments, 1 or more."""
+        half = (self.moments[0] + self.moments[2]) / 2.0
+        return (half + math.sqrt(max(half * half - 1.0, 0.0))) ** 2
 
 
 def friction(alpha: float) -> float:
@@ -89,12 +108,18 @@ def friction(alpha: float) -> float:
 
 
 def spread(
-    prior: Prior, radius: tuple[float, float], growth: tuple[float, float]
+    prior: Prior,
+    radius: tuple[float, float],
+    growth: tuple[float, float],
+    shape: tuple[float, float],
 ) -> tuple[Array, Array, npt.NDArray[np.int64], Array]:
-    """Spread hypotheses over a prior: means, covariances, kinds of friction and weights.
+    """Spread hypotheses over a prior: means, covariances, kinds of friction and weights, by kind.
 
-    Of the finger's radius and of the growth of c^2 means and standard deviations are given.
+    Of the finger's radius and of growth and shape (`resistance`) means and standard deviations are
+    given. The shape of an area that has hardly a preferred direction is left out.
     """
+    if prior.slenderness < SLENDER:
+        shape = 0.0, 0.0
     few, many = D_COUNTS if prior.d[0] < prior.d[1] else (1, 1)
     count = min(max(math.ceil((prior.d[1] - prior.d[0]) / D_SPACING), few), many)
     d_edges = np.linspace(*prior.d, count + 1)
@@ -104,34 +129,34 @@ def spread(
     if prior.mu_c[0] == 0.0:
         frictions.append((0.0, 0.0, NONE, SHARES[NONE]))
     if least < most:
-        edges = np.linspace(least, most, ALPHA_COUNT + 1)
-        variance = (edges[1] - edges[0]) ** 2 / 12.0
-        share = SHARES[SOME] / ALPHA_COUNT
-        frictions += [
-            (angle, variance, SOME, share) for angle in ((edges[1:] + edges[:-1]) / 2.0).tolist()
-        ]
+        # The smaller the friction, the more of the contact's way it decides on.
+        edges = least + (most - least) * np.linspace(0.0, 1.0, ALPHA_COUNT + 1) ** 1.5
+        for low, high in pairwise(edges.tolist()):
+            share = SHARES[SOME] * (high - low) / (most - least)
+            frictions.append(((low + high) / 2.0, (high - low) ** 2 / 12.0, SOME, share))
     elif 0.0 < prior.mu_c[0] < math.inf:
         frictions.append((least, 0.0, SOME, SHARES[SOME]))
     if math.isinf(prior.mu_c[1]):
         frictions.append((math.pi / 2.0, 0.0, STICKS, SHARES[STICKS]))
     means, covariances, kinds, weights = [], [], [], []
-    for d_low, d_high in pairwise(d_edges):
-        for c_low, c_high in pairwise(c_edges):
-            for angle, variance, kind, weight in frictions:
+    for angle, variance, kind, share in frictions:
+        for d_low, d_high in pairwise(d_edges):
+            for c_low, c_high in pairwise(c_edges):
                 mean = np.zeros(UNKNOWNS)
                 mean[D], mean[LOG_C] = (d_low + d_high) / 2.0, math.log(c_low * c_high) / 2.0
                 mean[ALPHA], mean[L] = angle, prior.l
-                mean[R], mean[GROWTH] = radius[0], growth[0]
-                weight = weight * (c_high - c_low)
+                mean[R], mean[GROWTH], mean[SHAPE] = radius[0], growth[0], shape[0]
+                weight = share * (c_high - c_low)
                 if prior.density is not None:
                     middle = math.exp(mean[LOG_C])
-                    weight = weight * prior.density(mean[D], middle, friction(angle))
+                    weight *= prior.density(mean[D], middle, friction(angle))
                 means.append(mean)
                 variances = np.zeros(UNKNOWNS)
-                variances[D] = (d_high - d_low) ** 2 / 12.0
+                variances[D] = ((d_high - d_low) / OVERLAP) ** 2
                 variances[LOG_C] = math.log(c_high / c_low) ** 2 / 12.0
                 variances[ALPHA], variances[L] = variance, prior.l_sigma**2
                 variances[R], variances[GROWTH] = radius[1] ** 2, growth[1] ** 2
+                variances[SHAPE] = shape[1] ** 2
                 covariances.append(np.diag(variances))
                 kinds.append(kind)
                 weights.append(weight)

@@ -17,7 +17,7 @@ import math
 import numpy as np
 import pytest
 
-from tactile_push.estimation import edges_of
+from tactile_push.estimation import Prior, edges_of
 from tactile_push.mechanics import Outline, piece_at
 
 RECTANGLE = [(-0.025, -0.02375), (0.025, -0.02375), (0.025, 0.02375), (-0.025, 0.02375)]
@@ -37,11 +37,21 @@ def test_a_rectangle_has_two_pairs_of_edges():
     assert not edges[0].same_place(edges[1], 1e-9)
 
 
-def test_slenderness_is_the_ratio_of_second_moments():
-    # Of a rectangle (a/b)^2; of a triangle's area that of its corners.
-    assert edges_of(RECTANGLE)[0].slenderness == pytest.approx((5.0 / 4.75) ** 2)
-    spread = np.linalg.eigvalsh(np.cov(np.array(TRIANGLE).T))
-    assert edges_of(TRIANGLE)[1].slenderness == pytest.approx(spread[1] / spread[0])
+def test_moments_are_those_of_the_area_in_the_frame_of_the_edge():
+    # Of a rectangle as its sides squared; of a triangle as those of its corners.
+    ratio = 5.0 / 4.75
+    assert edges_of(RECTANGLE)[0].moments == pytest.approx((ratio, 0.0, 1.0 / ratio))
+    assert edges_of(RECTANGLE)[1].moments == pytest.approx((1.0 / ratio, 0.0, ratio))
+    covariance = np.cov(np.array(TRIANGLE).T)
+    for edge in edges_of(TRIANGLE):
+        t = np.array([math.cos(edge.angle), math.sin(edge.angle)])
+        n = np.array([-t[1], t[0]])
+        expected = np.array([t @ covariance @ t, t @ covariance @ n, n @ covariance @ n])
+        expected /= math.sqrt(np.linalg.det(covariance))
+        assert edge.moments == pytest.approx(expected)
+        principal = np.linalg.eigvalsh(covariance)
+        prior = Prior(edge.d, edge.l, moments=edge.moments)
+        assert prior.slenderness == pytest.approx(principal[1] / principal[0])
 
 
 def test_ends_of_edges_are_the_corners():

@@ -1,0 +1,157 @@
+# Copyright 2026 The tactile_push authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""How an object turns whose limit surface is no ellipsoid.
+
+c^2 is (m/f)/(omega/|v|), force and motion being those at the centre of mass: one number on an
+ellipsoid. Under any pressure it is the second moment of the load along the direction in which the
+centre of mass moves, as long as the object hardly turns. The more it turns for its way the larger
+c^2 becomes, and when it spins c^2 has an end.
+"""
+
+import math
+
+from tactile_push.mechanics.compiled import Array, equation
+from tactile_push.mechanics.motion import FREE, SLIP_LEFT, STICK, pushed_twist
+
+RIGHT_ANGLE = math.pi / 2.0
+ROUNDS = 3  # until c^2 and the motion agree
+LEAST_COSINE = 1e-6  # a steeper force is one along the edge
+SLOWEST = 1e-24  # squared speed of an object that only spins [m^2/s^2]
+LEAST = 0.1  # c^2 does not shrink to less than this share of it
+
+
+@equation
+def resistance(
+    v_x: float,
+    v_y: float,
+    omega: float,
+    c_squared: float,
+    growth: float,
+    shape: float,
+    moments: Array,
+) -> float:
+    """Give c^2 of a motion.
+
+    Parameters
+    ----------
+    v_x, v_y, omega : float
+        Velocity of the object at its centre of mass, along tangent and normal [m/s, m/s, rad/s].
+    c_squared : float
+        c^2 of a load without preferred direction while the object hardly turns [m^2].
+    growth : float
+        By how much c^2 is greater when the object spins than on average over the directions, as a
+        share of it.
+    shape : float
+        Share of the load that is spread as the outline's area is.
+    moments : ndarray, shape (3,)
+        Second moments of the area along the tangent, mixed and along the normal, divided by the
+        root of their determinant.
+
+    Returns
+    -------
+    float
+        c^2 [m^2].
+    """
+    xx, xy, yy = moments[0], moments[1], moments[2]
+    mean = 1.0 + shape * ((xx + yy) / 2.0 - 1.0)
+    square = v_x * v_x + v_y * v_y
+    if square < SLOWEST:
+        return c_squared * max(mean + growth, LEAST)
+    along = (xx * v_x * v_x + 2.0 * xy * v_x * v_y + yy * v_y * v_y) / square
+    directed = 1.0 + shape * (along - 1.0)
+    spin = omega * omega * c_squared * mean
+    share = spin / math.sqrt(spin * spin + square * square)
+    return c_squared * max(directed + (mean + growth - directed) * share, LEAST)
+
+
+@equation
+def cone_of_angle(alpha: float) -> tuple[float, float]:
+    """Give cosine and sine of half the angle of the friction cone.
+
+    Parameters
+    ----------
+    alpha : float
+        The angle [rad]; what is beyond 0 and pi/2 counts as the bound.
+
+    Returns
+    -------
+    cos_alpha, sin_alpha : float
+        Cosine and sine, neither negative.
+    """
+    if alpha >= RIGHT_ANGLE:
+        return 0.0, 1.0
+    if alpha <= 0.0:
+        return 1.0, 0.0
+    return math.cos(alpha), math.sin(alpha)
+
+
+@equation
+def settled(
+    v_t: float,
+    v_n: float,
+    d: float,
+    l: float,
+    cos_alpha: float,
+    sin_alpha: float,
+    c_squared: float,
+    growth: float,
+    shape: float,
+    moments: Array,
+) -> tuple[float, float, float]:
+    """Find the c^2 with which a push moves the object so that this is its c^2.
+
+    omega = A/(c^2 + B) with A and B of (11) for a sticking contact, and of (13) and (15) for one
+    that slips, where the centre of mass moves as the force acts.
+
+    Parameters
+    ----------
+    v_t, v_n : float
+        Velocity of the finger along tangent and normal [m/s].
+    d : float
+        Contact along the edge [m].
+    l : float
+        Distance from the edge to the centre of mass [m].
+    cos_alpha, sin_alpha : float
+        The friction cone.
+    c_squared, growth, shape, moments
+        As `resistance` takes them.
+
+    Returns
+    -------
+    c_squared : float
+        c^2 [m^2].
+    omega : float
+        Rate of turning [rad/s].
+    v_slip : float
+        Velocity of slip [m/s], eq. (14).
+    """
+    now = resistance(v_t, v_n, 0.0, c_squared, growth, shape, moments)
+    _, _, omega, v_slip, mode = pushed_twist(v_t, v_n, d, -l, cos_alpha, sin_alpha, math.sqrt(now))
+    if mode == FREE or (growth == 0.0 and shape == 0.0):
+        return now, omega, v_slip
+    steep, square = 0.0, d * d + l * l  # of the force, and B
+    if mode != STICK:
+        steep = sin_alpha / max(cos_alpha, LEAST_COSINE)
+        if mode == SLIP_LEFT:
+            steep = -steep
+        square = d * (d + l * steep)
+    turn = omega * (now + square)
+    for _ in range(ROUNDS):
+        forward = v_n - d * omega
+        aside = v_t - l * omega if mode == STICK else steep * forward
+        # Where one c^2 is too large the next is too small.
+        now = (now + resistance(aside, forward, omega, c_squared, growth, shape, moments)) / 2.0
+        omega = turn / max(now + square, LEAST * now)
+    _, _, omega, v_slip, _ = pushed_twist(v_t, v_n, d, -l, cos_alpha, sin_alpha, math.sqrt(now))
+    return now, omega, v_slip
