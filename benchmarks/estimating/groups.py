@@ -28,7 +28,7 @@ from tactile_push.simulation import Faults, Rig, RigConfig, Servo
 STEPS = (10, 20, 60, 173, 400)
 BELT_SPEED, PERIOD, RADIUS = 0.005, 0.1, 0.0135
 C = (0.005, 0.036)
-TENTH = 0.075  # standard deviation of l and r, as a share, that covers errors of a tenth
+TENTH = 0.085  # standard deviation of l and r, as a share, that covers errors of a tenth
 
 
 def rectangle(width: float, height: float) -> tuple[tuple[float, float], ...]:
@@ -58,10 +58,10 @@ class Group:
     sticks: bool = False  # whether the prior knows that the contact sticks
     start: tuple[float, float] | None = None  # theta [rad] and d [m]; by chance without
     edge_known: bool = True  # else any edge is pushed, and the estimator does not know which
-    l_error: float = 0.0  # how far what the estimator is told is wrong, either way, as a share
-    r_error: float = 0.0
+    l_error: float | None = None  # by how much l is wrong, either way, as a share
+    r_error: float | None = None  # both by chance without, with the deviations that are told
     shares: float = 0.0  # standard deviations of l and r that it is told, as a share
-    rivals: bool = False  # whether the other methods are tried, too
+    rivals: bool = False  # whether the particle filter is tried, too
 
     @property
     def edges(self) -> tuple[Edge, ...]:
@@ -154,6 +154,13 @@ class Run:
     phi: Array
 
 
+def error_of(stated: float | None, share: float, rng: np.random.Generator) -> float:
+    """Draw by how much l or r is wrong, within three standard deviations, as a share."""
+    if stated is None:
+        return share * float(np.clip(rng.standard_normal(), -3.0, 3.0))
+    return float(rng.choice((-1.0, 1.0))) * stated
+
+
 def experiment(group: Group, rng: np.random.Generator) -> Run:
     """Push an object that is drawn by chance, under the paper's law."""
     edges = edges_of(group.vertices)
@@ -163,7 +170,7 @@ def experiment(group: Group, rng: np.random.Generator) -> Run:
     turn = np.array([math.cos(edge.angle), math.sin(edge.angle)])
     # Its neighbours and the far side go with it, for the outline to stay convex.
     across = corners @ np.array([-turn[1], turn[0]])
-    stretched = across * (1.0 + rng.choice((-1.0, 1.0)) * group.l_error)
+    stretched = across * (1.0 + error_of(group.l_error, group.shares, rng))
     corners = corners + np.outer(stretched - across, (-turn[1], turn[0]))
     outline = Outline.polygon(corners)
     slider = Slider(outline, rng.uniform(*group.c))
@@ -173,7 +180,7 @@ def experiment(group: Group, rng: np.random.Generator) -> Run:
     theta, d = rng.uniform(-0.4, 0.4), middle + rng.uniform(-0.8, 0.8) * half
     if group.start is not None:
         theta, d = group.start
-    radius = RADIUS * (1.0 + rng.choice((-1.0, 1.0)) * group.r_error)
+    radius = RADIUS * (1.0 + error_of(group.r_error, group.shares, rng))
     rig = Rig(
         RigConfig(slider, group.mu_c, theta, d, radius=radius), Faults(servo=Servo(group.lag))
     )

@@ -19,22 +19,27 @@ import numpy as np
 
 from estimating.groups import BELT_SPEED, PERIOD, RADIUS, STEPS, C, Group, Run
 from tactile_push.estimation.hypotheses import advance
+from tactile_push.estimation.prior import ROUND
 from tactile_push.mechanics.compiled import Array, compiled
 
 PARTICLES = 4000
 SHRINK = 0.98  # of Liu and West
+NO_DIRECTION = np.array(ROUND)
 WINDOW = 25  # readings over which the paper's method looks
 
 Interval = tuple[float, float]
 
 
+def push_of(v_x: float) -> tuple[float, float, Array, float, float, float, bool]:
+    """Give the last arguments of `advance`, for an ellipsoid pushed for a control period."""
+    return 0.0, 0.0, NO_DIRECTION, v_x, BELT_SPEED, PERIOD, False
+
+
 @compiled
-def advance_all(particles: Array, l: float, v_x: float) -> None:
+def advance_all(particles: Array, l: float, push: tuple) -> None:
     """Push every particle for a control period."""
     for row in particles:
-        row[0], row[1], _ = advance(
-            row[0], row[1], row[2], row[3], l, RADIUS, 0.0, v_x, BELT_SPEED, PERIOD, False
-        )
+        row[0], row[1], _ = advance(row[0], row[1], row[2], row[3], l, RADIUS, *push)
 
 
 def particle_filter(group: Group, run: Run, rng: np.random.Generator) -> dict[int, Interval]:
@@ -51,7 +56,7 @@ def particle_filter(group: Group, run: Run, rng: np.random.Generator) -> dict[in
     )
     found = {}
     for k in range(1, len(run.reading)):
-        advance_all(particles, edge.l, run.measured[k])
+        advance_all(particles, edge.l, push_of(run.measured[k]))
         log_weights = -0.5 * ((run.reading[k] - particles[:, 0]) / group.noise) ** 2
         weights = np.exp(log_weights - log_weights.max())
         weights /= weights.sum()
@@ -77,8 +82,8 @@ def trajectory(theta: float, d: float, c: float, l: float, v_x: Array) -> tuple[
     """Push a sticking contact along measured velocities: theta and d at every control period."""
     out = [(theta, d)]
     for v in v_x[1:]:
-        now = (*out[-1], c * c, math.pi / 2.0, l, RADIUS, 0.0, v, BELT_SPEED, PERIOD, False)
-        out.append(advance(*now)[:2])
+        now = (*out[-1], c * c, math.pi / 2.0, l, RADIUS)
+        out.append(advance(*now, *push_of(v))[:2])
     thetas, ds = np.array(out).T
     return thetas, ds
 

@@ -104,6 +104,7 @@ def make(index: int, seed: int, numbers: range) -> tuple[int, list[Outcome]]:
             outcome.intervals['translation (17)'] = by_translation(group, run)
         if group.rivals:
             outcome.intervals['particles'] = particle_filter(group, run, rng)
+        if group.sticks and group.shares == 0.0:
             outcome.cramer_rao = cramer_rao(group, run)
         outcomes.append(outcome)
     return index, outcomes
