@@ -23,9 +23,9 @@ width of the interval, and how often the truth is within the guaranteed bounds, 
 count for the guarantee. Where the estimator does not know which edge is pushed: how often the right
 one leads, and from which step on its weight, with that of edges alike, stays above 0.95.
 
-Beside it, for some groups: the bound of Cramer and Rao on the width for a sticking contact,
-4 sqrt(variance of d), from the sensitivities of theta to its start, d and c, with the prior as one
-more reading; a bootstrap particle filter of 4,000 particles with Liu and West's kernel; and the
+Beside it: for contacts known to stick the bound of Cramer and Rao on the width, 4 sqrt(variance of
+d), from the sensitivities of theta to its start, d and c, with the prior as one more reading; for
+some groups a bootstrap particle filter of 4,000 particles with Liu and West's kernel; and the
 paper's method, (17) over the last 25 steps once theta has stayed within its noise.
 """
 
@@ -113,8 +113,8 @@ def plot(results: dict[str, Any], file: Path) -> None:
     for name in results:
         if name in SHOWN:
             draw(right, results[name]['estimator'], label=name)
-    right.set(xlabel='step', title='the estimator')
-    right.legend()
+    right.set(xlabel='step', title='the estimator', ylim=(2e-3, None))  # room for the legend
+    right.legend(loc='lower left')
     figure.savefig(file)
 
 
