@@ -18,6 +18,7 @@ from functools import partial
 from typing import Any
 
 from rcl_interfaces.srv import GetParameters, ListParameters
+from rclpy.client import Client
 from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 from rclpy.node import Node
@@ -35,6 +36,7 @@ NODES = (
     'bag_player',
 )
 LOOK_PERIOD = 0.2  # between looks for nodes that have not been asked [s]
+ASK_AGAIN = 5  # looks after which an answer that has not come is lost
 
 
 class ParameterNotes:
@@ -85,15 +87,29 @@ class _Question:
         self._node = node
         self._lister = node.create_client(ListParameters, f'{full_name}/list_parameters')
         self._getter = node.create_client(GetParameters, f'{full_name}/get_parameters')
-        self._asked = False
+        self._looks = 0
+        self._asked: list[tuple[Client, Future]] = []
         self.answer: dict[str, Any] | None = None
 
     def ask(self) -> None:
-        """Ask, once, as soon as there is somebody to answer."""
-        if self._asked or not (self._lister.service_is_ready() and self._getter.service_is_ready()):
+        """Ask as soon as there is somebody to answer, and again if no answer comes.
+
+        The node may have heard of the question before it has heard of who reads the answer, which
+        is lost then.
+        """
+        if not (self._lister.service_is_ready() and self._getter.service_is_ready()):
             return
-        self._asked = True
-        self._lister.call_async(ListParameters.Request()).add_done_callback(self._on_names)
+        if self._looks % ASK_AGAIN == 0:
+            for client, future in self._asked:
+                client.remove_pending_request(future)
+            self._asked = []
+            self._call(self._lister, ListParameters.Request(), self._on_names)
+        self._looks += 1
+
+    def _call(self, client: Client, request: Any, answered: Callable[[Future], None]) -> None:
+        future = client.call_async(request)
+        self._asked.append((client, future))
+        future.add_done_callback(answered)
 
     def close(self) -> None:
         """Ask no more."""
@@ -103,7 +119,7 @@ class _Question:
     def _on_names(self, future: Future) -> None:
         names = future.result().result.names
         request = GetParameters.Request(names=names)
-        self._getter.call_async(request).add_done_callback(partial(self._on_values, names))
+        self._call(self._getter, request, partial(self._on_values, names))
 
     def _on_values(self, names: list[str], future: Future) -> None:
         values = map(parameter_value_to_python, future.result().values)

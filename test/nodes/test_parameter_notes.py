@@ -16,6 +16,7 @@
 import re
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -23,8 +24,10 @@ rclpy = pytest.importorskip('rclpy')
 
 from rclpy.context import Context  # noqa: E402
 from rclpy.executors import SingleThreadedExecutor  # noqa: E402
+from rclpy.task import Future  # noqa: E402
 
-from tactile_push.nodes.parameter_notes import NODES, ParameterNotes  # noqa: E402
+from tactile_push.nodes import parameter_notes  # noqa: E402
+from tactile_push.nodes.parameter_notes import ASK_AGAIN, NODES, ParameterNotes  # noqa: E402
 from tactile_push.processes import claim_domain  # noqa: E402
 
 
@@ -113,3 +116,64 @@ def test_all_nodes_of_the_package_are_known():
     setup = (Path(__file__).resolve().parents[2] / 'setup.py').read_text()
     installed = re.search(r'NODES = \((.*?)\)', setup, re.DOTALL).group(1)
     assert set(re.findall(r"'(\w+)'", installed)) <= set(NODES)
+
+
+class Client:
+    """A client whose first answers are lost."""
+
+    def __init__(self, answer, lost):
+        self.answer, self.lost, self.calls = answer, lost, 0
+        self.pending = []
+
+    def service_is_ready(self):
+        return True
+
+    def call_async(self, request):
+        future = Future()
+        self.calls += 1
+        if self.calls > self.lost:
+            future.set_result(self.answer)
+        self.pending.append(future)
+        return future
+
+    def remove_pending_request(self, future):
+        self.pending.remove(future)
+
+
+class AskingNode:
+    """Sees one other node, and has its looks made by hand."""
+
+    def __init__(self, lost_names, lost_values):
+        names = SimpleNamespace(result=SimpleNamespace(names=['period']))
+        self.lister = Client(names, lost_names)
+        self.getter = Client(SimpleNamespace(values=['a value']), lost_values)
+
+    def create_timer(self, period, look, clock):
+        self.look = look
+
+    def create_client(self, kind, name):
+        return self.lister if name.endswith('list_parameters') else self.getter
+
+    def destroy_client(self, client):
+        pass
+
+    def get_fully_qualified_name(self):
+        return '/bag_recorder'
+
+    def get_node_names_and_namespaces(self):
+        return [('sim_plant', '/')]
+
+
+@pytest.mark.parametrize(('lost_names', 'lost_values'), [(0, 0), (1, 0), (0, 1), (2, 1)])
+def test_answer_that_is_lost_is_asked_for_again(monkeypatch, lost_names, lost_values):
+    monkeypatch.setattr(parameter_notes, 'parameter_value_to_python', lambda value: value)
+    noted = []
+    node = AskingNode(lost_names, lost_values)
+    ParameterNotes(node, noted.append)
+
+    for _ in range((lost_names + lost_values) * ASK_AGAIN + 2):
+        node.look()
+
+    assert noted == [{'sim_plant': {'period': 'a value'}}]
+    assert node.lister.calls == lost_names + lost_values + 1
+    assert len(node.lister.pending) == len(node.getter.pending) == 1  # nothing adds up
