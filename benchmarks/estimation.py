@@ -100,7 +100,7 @@ def plot(results: dict[str, Any], file: Path) -> None:
     """Draw width against step: the first group by every method, and the first of each kind."""
     from tactile_push.plots.style import TWO_COLUMNS, new_figure
 
-    figure = new_figure(TWO_COLUMNS, 3.0)
+    figure = new_figure(TWO_COLUMNS, 4.0)
     left, right = figure.subplots(1, 2, sharey=True)
     name, result = next(iter(results.items()))
     for method in METHODS:
@@ -109,12 +109,12 @@ def plot(results: dict[str, Any], file: Path) -> None:
         steps = [int(k) for k in result['cramer_rao_mm']]
         left.loglog(steps, list(result['cramer_rao_mm'].values()), 'k:', label='Cramér-Rao')
     left.set(xlabel='step', ylabel='median width for d [mm]', title=name)
-    left.legend()
     for name in results:
         if name in SHOWN:
             draw(right, results[name]['estimator'], label=name)
-    right.set(xlabel='step', title='the estimator', ylim=(2e-3, None))  # room for the legend
-    right.legend(loc='lower left')
+    right.set(xlabel='step', title='the estimator')
+    for axes in (left, right):  # below the lines, not on them
+        axes.legend(loc='upper center', bbox_to_anchor=(0.5, -0.2), ncols=2)
     figure.savefig(file)
 
 
