@@ -22,13 +22,13 @@ bench: $(TEST_READY)
 
 faults: $(TEST_READY)
 	mkdir -p out
-	$(BIN)/python benchmarks/faults.py --json out/faults.json
+	PYTHONPATH=test $(BIN)/python -m faults --json out/faults.json
 
 fuzz: $(TEST_READY)
-	$(BIN)/python benchmarks/fuzz.py
+	PYTHONPATH=test $(BIN)/python -m fuzzing
 
 soak: $(TEST_READY)
-	$(BIN)/python benchmarks/soak.py
+	PYTHONPATH=test $(BIN)/python -m soaking
 
 lint: $(TEST_READY)
 	$(BIN)/ruff check .

@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """Speed of the replay of an hour beside that of mcap's reader on the same messages.
 
 The bag has what a finger says in an hour: readings at 100 Hz, joint states at 50 Hz, what geometry
@@ -27,16 +16,17 @@ from mcap_ros2.decoder import DecoderFactory
 from rclpy.serialization import serialize_message
 
 from tactile_push.bags import BagReader, BagWriter
-from tactile_push.configuration import contact_geometry, push_controller, values_of
 from tactile_push.control import tick_values
-from tactile_push.messages import (
+from tactile_push.nodes.ros.messages import (
     ContactMessage,
     named_values,
     velocity_command,
 )
+from tactile_push.parameters import contact_geometry, push_controller, values_of
+from tactile_push.pipeline.orientation import yaw_of_quaternion
+from tactile_push.pipeline.stamps import epoch_of, seconds_since
 from tactile_push.replay import replay
-from tactile_push.stamps import epoch_of, seconds_since
-from tactile_push.tactile import reading_of_contact, reading_values, yaw_of_quaternion
+from tactile_push.tactile import reading_of_contact, reading_values
 
 HOUR = 3600  # [s]
 READINGS, JOINT_STATES, TICKS = 100, 50, 10  # [Hz]

@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """How fast the report of ten minutes opens in a browser: `make bench`."""
 
 import math
@@ -21,7 +10,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import sync_playwright
 
-from tactile_push.plots import Episode, Run, Scene, Series, report_html
+from tactile_push.report import Episode, Run, Scene, Series, report_html
 
 SECONDS, TICKS, READINGS = 600.0, 10.0, 100.0  # of the run [s], rates [Hz]
 LOADS = 5

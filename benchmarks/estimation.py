@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """How often the estimator's intervals have the truth, and how narrow they are.
 
     python benchmarks/estimation.py [--experiments N] [--seed S] [--json FILE] [--plot FILE]
@@ -98,7 +87,7 @@ def show(results: dict[str, Any]) -> None:
 
 def plot(results: dict[str, Any], file: Path) -> None:
     """Draw width against step: the first group by every method, and the first of each kind."""
-    from tactile_push.plots.style import TWO_COLUMNS, new_figure
+    from tactile_push.figures.style import TWO_COLUMNS, new_figure
 
     figure = new_figure(TWO_COLUMNS, 4.0)
     left, right = figure.subplots(1, 2, sharey=True)

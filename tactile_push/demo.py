@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """The demonstration: both rigs of the paper, as real nodes against the simulated plant."""
 
 import math
@@ -25,13 +14,13 @@ from pathlib import Path
 
 import numpy as np
 
-from tactile_push.bags.known import known_step
 from tactile_push.bags.states import read_states
-from tactile_push.configuration import config_file
 from tactile_push.control import PUSHING, STATES, settle_step
 from tactile_push.estimation import contact_of_translation
-from tactile_push.plots import plot_history
-from tactile_push.processes import NodeProcesses
+from tactile_push.figures import plot_history
+from tactile_push.parameters import config_file
+from tactile_push.report.known import known_step
+from tactile_push.testing.processes import NodeProcesses
 
 STEPS = 450
 TRANSLATING = 400  # the step from which the paper reads off its ranges

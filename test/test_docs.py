@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 import math
 import re
 import shutil
@@ -21,6 +10,7 @@ import pytest
 import yaml
 
 import tactile_push.mechanics
+from tactile_push.devices import decode
 from tactile_push.nodes.active_sensing import ActiveSensingNode
 from tactile_push.nodes.bag_player import BagPlayer
 from tactile_push.nodes.bag_recorder import BagRecorder
@@ -29,7 +19,6 @@ from tactile_push.nodes.experiment import Experiment
 from tactile_push.nodes.push_controller import PushController
 from tactile_push.nodes.sensor_driver import SensorDriver
 from tactile_push.nodes.sim_plant import SimPlant
-from tactile_push.tactile import decode
 
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / 'README.md').read_text()

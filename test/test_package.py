@@ -1,20 +1,9 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """The package as a whole: who imports whom, what loads quickly, and that all of it is documented.
 
 The rules are those of architecture.md: mechanics knows nothing of the package; tactile, control
-and estimation know mechanics at most; simulation knows those, and so do plots, which show what it
+and estimation know mechanics at most; simulation knows those, and so do figures, which show what it
 does; only nodes and the part of bags that needs message types import rclpy or message packages;
 nothing imports nodes or the command.
 """
@@ -40,7 +29,16 @@ MODULES = {
     '.'.join(path.relative_to(ROOT).with_suffix('').parts).removesuffix('.__init__'): path
     for path in sorted(ROOT.rglob('*.py'))
 }
-PUBLIC = ('mechanics', 'tactile', 'control', 'estimation', 'simulation', 'bags', 'plots', 'report')
+PUBLIC = (
+    'mechanics',
+    'tactile',
+    'control',
+    'estimation',
+    'simulation',
+    'bags',
+    'figures',
+    'report',
+)
 CORE = {'tactile', 'control', 'estimation'}
 ROS = re.compile(r'rclpy|rosidl_\w+|\w+_msgs|rcl_interfaces|builtin_interfaces')
 
@@ -84,7 +82,7 @@ def run_python(program):
 
 
 def test_all_parts_are_found():
-    assert {name.split('.')[0] for name in MODULES} >= {*PUBLIC, 'nodes', 'cli', 'processes'}
+    assert {name.split('.')[0] for name in MODULES} >= {*PUBLIC, 'nodes', 'cli', 'testing'}
     assert all(modules_of(part) for part in PUBLIC)
 
 
@@ -101,17 +99,17 @@ def test_core_knows_mechanics_and_itself_at_most(part):
 
 def test_simulation_knows_mechanics_and_the_core_at_most():
     for name, path in modules_of('simulation').items():
-        assert parts_imported(path) <= {'mechanics', 'simulation', *CORE}, name
+        assert parts_imported(path) <= {'mechanics', 'devices', 'simulation', *CORE}, name
 
 
-def test_bags_know_themselves_and_what_they_tell_of_the_core_at_most():
+def test_bags_know_nothing_else_of_the_package():
     for name, path in modules_of('bags').items():
-        assert parts_imported(path) <= {'bags', 'control', 'estimation'}, name
+        assert parts_imported(path) <= {'bags'}, name
 
 
-def test_plots_know_what_they_show_at_most():
-    for name, path in modules_of('plots').items():
-        assert parts_imported(path) <= {'mechanics', 'simulation', 'plots', *CORE}, name
+def test_figures_know_what_they_show_at_most():
+    for name, path in modules_of('figures').items():
+        assert parts_imported(path) <= {'mechanics', 'simulation', 'figures', *CORE}, name
 
 
 def test_only_nodes_and_what_makes_messages_need_ros():
@@ -120,13 +118,9 @@ def test_only_nodes_and_what_makes_messages_need_ros():
         for name, path in MODULES.items()
         if any(ROS.fullmatch(imported.split('.')[0]) for imported in imports(path))
     }
-    assert 'bags.recorder' in users
+    assert 'recording.recorder' in users
     assert 'nodes.contact_geometry' in users
-    assert {name for name in users if name.split('.')[0] != 'nodes'} == {
-        'bags.player',
-        'bags.recorder',
-        'messages',
-    }
+    assert {name.split('.')[0] for name in users} == {'nodes', 'playing', 'recording'}
 
 
 def test_nothing_but_nodes_imports_nodes_and_nothing_the_command():
@@ -201,7 +195,7 @@ def test_command_refuses_what_it_does_not_know_with_status_2(capsys, arguments):
 @pytest.mark.parametrize('name', MODULES)
 def test_file_starts_with_the_copyright_and_says_what_it_is(name):
     text = MODULES[name].read_text()
-    assert text.startswith('# Copyright 2026 The tactile_push authors\n#\n# Licensed under')
+    assert text.startswith('# SPDX-FileCopyrightText: ')
     summary = ast.get_docstring(ast.parse(text)).splitlines()[0]
     assert summary.endswith('.')
 

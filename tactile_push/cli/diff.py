@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """`tactile_push diff`: what is different between two bags."""
 
 import argparse
@@ -26,7 +15,7 @@ from tactile_push.cli.arguments import Commands
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from tactile_push.bags.differences import Difference, TopicDiff
+    from tactile_push.comparing.differences import Difference, TopicDiff
 
 
 def add(commands: Commands) -> None:
@@ -100,9 +89,9 @@ def _tolerance(text: str) -> tuple[tuple[str, str] | None, float]:
 
 def _diff(options: argparse.Namespace) -> int:
     from tactile_push.bags import BagError, BagReader
-    from tactile_push.bags.diff import diff
-    from tactile_push.bags.differences import Tolerances
     from tactile_push.cli.bags import reading, warner
+    from tactile_push.comparing.diff import diff
+    from tactile_push.comparing.differences import Tolerances
 
     warn = warner('diff')
     general = [value for place, value in options.tolerance if place is None]
@@ -256,7 +245,7 @@ def _details(results: 'Sequence[TopicDiff]') -> 'Table':
 
 def _at(result: 'TopicDiff', key: int) -> str:
     """Return which message it is: that of a stamp, or of a place."""
-    from tactile_push.bags.fields import seconds
+    from tactile_push.comparing.fields import seconds
 
     return f'{seconds(key)} s' if result.by_stamp else f'message {key}'
 

@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """`tactile_push info`: what is in a bag, and how well the finger pushed."""
 
 import argparse
@@ -27,8 +16,8 @@ from tactile_push.cli.arguments import Commands, number
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from tactile_push.bags.info import BagInfo
-    from tactile_push.bags.merit import PushFigures
+    from tactile_push.report.info import BagInfo
+    from tactile_push.report.merit import PushFigures
 
 # A clock that counts from the epoch is later than this [ns]: 2001. Simulated time is earlier.
 _EPOCH_CLOCK = 10**18
@@ -63,8 +52,8 @@ def add(commands: Commands) -> None:
 
 def _info(options: argparse.Namespace) -> int:
     from tactile_push.bags import BagError, BagReader
-    from tactile_push.bags.info import bag_info
     from tactile_push.cli.bags import reading, warner
+    from tactile_push.report.info import bag_info
 
     try:
         with (
@@ -202,7 +191,7 @@ def _print_parameters(console: 'Console', info: 'BagInfo') -> None:
 
 
 def _start(time: int) -> str:
-    from tactile_push.bags.fields import seconds
+    from tactile_push.comparing.fields import seconds
 
     if time < _EPOCH_CLOCK:
         return f'{seconds(time)} s (simulated time)'

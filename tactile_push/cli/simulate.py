@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """`tactile_push simulate`: one object under the control law or open loop."""
 
 import argparse
@@ -92,7 +81,7 @@ def _simulate(options: argparse.Namespace) -> int:
     d0, json_file, plot = (getattr(options, name, None) for name in ('d0_mm', 'json', 'plot'))
     try:
         with Console(stderr=True).status('simulating (the first time, compiling)'):
-            from tactile_push import simulate
+            from tactile_push.simulation import case as simulate
 
             done = simulate.simulate(
                 options.object,
@@ -116,8 +105,12 @@ def _simulate(options: argparse.Namespace) -> int:
                 with simulate.naming('--json', json_file):
                     Path(json_file).write_text(text)
         if plot is not None:
+            from tactile_push.figures import plot_history
+
+            run, wanted = done.run, done.theta_desired
+            history = run.theta, run.phi, wanted, simulate.BAND, done.settle_step
             with simulate.naming('--plot', plot):
-                simulate.plot(done, plot)
+                plot_history({'': history}, [plot])
     except ValueError as error:
         print(f'tactile_push simulate: {error}', file=sys.stderr)
         return 2

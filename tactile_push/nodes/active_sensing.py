@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """Infers where on the object the finger is, and where its centre of mass lies."""
 
 import sys
@@ -24,16 +13,16 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
-from tactile_push.configuration.active_sensing import PARAMETERS, make_sensing
 from tactile_push.control import tick_of
 from tactile_push.estimation import ObjectEstimate, sensing_values, tells_pose
-from tactile_push.messages import named_values, object_pose_message
-from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
-from tactile_push.nodes.estimate_markers import estimate_markers
-from tactile_push.nodes.node_time import NodeTime
-from tactile_push.nodes.parameters import ConfigurationError, declare
-from tactile_push.nodes.process import run
-from tactile_push.nodes.qos import PUBLISHED
+from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
+from tactile_push.nodes.ros.estimate_markers import estimate_markers
+from tactile_push.nodes.ros.messages import named_values, object_pose_message
+from tactile_push.nodes.ros.node_time import NodeTime
+from tactile_push.nodes.ros.parameters import ConfigurationError, declare
+from tactile_push.nodes.ros.process import run
+from tactile_push.nodes.ros.qos import PUBLISHED
+from tactile_push.parameters.active_sensing import PARAMETERS, make_sensing
 
 PATIENCE = 1.0  # without a control period for longer it says so [s]
 

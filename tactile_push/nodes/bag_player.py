@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """Publishes a bag with its timing."""
 
 import sys
@@ -23,14 +12,14 @@ from rclpy.node import Node
 from rclpy.validate_full_topic_name import validate_full_topic_name
 from std_srvs.srv import SetBool, Trigger
 
-from tactile_push.bags.player import Player
 from tactile_push.bags.reader import BagError, BagReader
-from tactile_push.bags.schedule import CLOCK, Part, part_of, topic_in_bag
-from tactile_push.configuration import Parameter
-from tactile_push.nodes.diagnostics import OK, WARN, Diagnostics, Health
-from tactile_push.nodes.parameters import ConfigurationError, declare
-from tactile_push.nodes.process import run
-from tactile_push.nodes.terminal import Terminal
+from tactile_push.nodes.ros.diagnostics import OK, WARN, Diagnostics, Health
+from tactile_push.nodes.ros.parameters import ConfigurationError, declare
+from tactile_push.nodes.ros.process import run
+from tactile_push.parameters import Parameter
+from tactile_push.playing.player import Player
+from tactile_push.playing.schedule import CLOCK, Part, part_of, topic_in_bag
+from tactile_push.playing.terminal import Terminal
 
 TERMINAL_PERIOD = 0.05  # between looks at the keyboard [s]
 PAUSE, STEP = (' ',), ('s', '\x1b[C', '\x1bOC')  # the latter two are the right arrow

@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """Turns the sensor's angles and the finger's joint angles into the contact."""
 
 import math
@@ -22,13 +11,13 @@ from geometry_msgs.msg import PoseStamped
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 
-from tactile_push.configuration.contact_geometry import PARAMETERS, make_finder, take_values
-from tactile_push.messages import ContactMessage, named_values
-from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
-from tactile_push.nodes.node_time import NodeTime
-from tactile_push.nodes.parameters import ConfigurationError, declare
-from tactile_push.nodes.process import run
-from tactile_push.nodes.qos import PUBLISHED, SENSOR_DATA
+from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
+from tactile_push.nodes.ros.messages import ContactMessage, named_values
+from tactile_push.nodes.ros.node_time import NodeTime
+from tactile_push.nodes.ros.parameters import ConfigurationError, declare
+from tactile_push.nodes.ros.process import run
+from tactile_push.nodes.ros.qos import PUBLISHED, SENSOR_DATA
+from tactile_push.parameters.contact_geometry import PARAMETERS, make_finder, take_values
 from tactile_push.tactile import NO_CONTACT, Reading, ReadingRejectedError, reading_values
 
 PATIENCE = 0.5  # without a reading, or without one that is of use, before it is an error [s]

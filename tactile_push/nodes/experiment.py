@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """Conducts an experiment: starts the controller once everything is recorded, ends after N steps."""
 
 import sys
@@ -24,10 +13,10 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from tactile_push.bags import BagWriter
-from tactile_push.configuration import Parameter
-from tactile_push.nodes.parameters import ConfigurationError, declare
-from tactile_push.nodes.process import run
-from tactile_push.nodes.recording import TOPICS, Recording
+from tactile_push.nodes.ros.parameters import ConfigurationError, declare
+from tactile_push.nodes.ros.process import run
+from tactile_push.parameters import Parameter
+from tactile_push.recording.recording import TOPICS, Recording
 
 # Without these recorded from the beginning no experiment starts.
 AWAITED = (

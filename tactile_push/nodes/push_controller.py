@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """Runs the control law on contacts and commands the finger."""
 
 import math
@@ -29,12 +18,6 @@ from rclpy.timer import Timer
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from tactile_push.configuration.finger import make_finger
-from tactile_push.configuration.push_controller import (
-    PARAMETERS,
-    make_control,
-    take_values,
-)
 from tactile_push.control import (
     HELD,
     STOPPED,
@@ -43,14 +26,20 @@ from tactile_push.control import (
     plausible,
     tick_values,
 )
-from tactile_push.messages import FINGER_DISK, named_values, velocity_command
-from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
-from tactile_push.nodes.managed import ManagedNode
-from tactile_push.nodes.node_time import NodeTime
-from tactile_push.nodes.parameters import ConfigurationError, declare
-from tactile_push.nodes.process import run
-from tactile_push.nodes.qos import PUBLISHED, SENSOR_DATA
-from tactile_push.tactile import yaw_of_quaternion
+from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
+from tactile_push.nodes.ros.managed import ManagedNode
+from tactile_push.nodes.ros.messages import FINGER_DISK, named_values, velocity_command
+from tactile_push.nodes.ros.node_time import NodeTime
+from tactile_push.nodes.ros.parameters import ConfigurationError, declare
+from tactile_push.nodes.ros.process import run
+from tactile_push.nodes.ros.qos import PUBLISHED, SENSOR_DATA
+from tactile_push.parameters.finger import make_finger
+from tactile_push.parameters.push_controller import (
+    PARAMETERS,
+    make_control,
+    take_values,
+)
+from tactile_push.pipeline.orientation import yaw_of_quaternion
 
 # Reliable so that no single command is missed, and best effort to hear who is that himself.
 COMMANDS = (

@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """Reads the tactile sensor's sentences from a device and publishes them."""
 
 import math
@@ -21,15 +10,15 @@ from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from rclpy.time import Time
 from sensor_msgs.msg import JointState
 
-from tactile_push.configuration import Parameter
-from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
-from tactile_push.nodes.managed import ManagedNode
-from tactile_push.nodes.parameters import ConfigurationError, declare
-from tactile_push.nodes.process import run
-from tactile_push.nodes.qos import PUBLISHED
+from tactile_push.devices.device import check_url
+from tactile_push.devices.reader import Condition, SensorReader
+from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
+from tactile_push.nodes.ros.managed import ManagedNode
+from tactile_push.nodes.ros.parameters import ConfigurationError, declare
+from tactile_push.nodes.ros.process import run
+from tactile_push.nodes.ros.qos import PUBLISHED
+from tactile_push.parameters import Parameter
 from tactile_push.tactile import Reading
-from tactile_push.tactile.device import check_url
-from tactile_push.tactile.reader import Condition, SensorReader
 
 
 class SensorDriver(ManagedNode):

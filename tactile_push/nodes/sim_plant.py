@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """The simulated rig in place of the hardware: finger velocity in, sensor bytes out."""
 
 import math
@@ -31,15 +20,17 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
-from tactile_push.configuration.sim_plant import PARAMETERS, faults, faults_on, rig_config
-from tactile_push.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
-from tactile_push.nodes.markers import rig_markers
-from tactile_push.nodes.parameters import ConfigurationError, declare
-from tactile_push.nodes.process import run
-from tactile_push.nodes.qos import PUBLISHED
+from tactile_push.devices import Sentence, encode
+from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
+from tactile_push.nodes.ros.markers import rig_markers
+from tactile_push.nodes.ros.parameters import ConfigurationError, declare
+from tactile_push.nodes.ros.process import run
+from tactile_push.nodes.ros.qos import PUBLISHED
+from tactile_push.parameters.sim_plant import PARAMETERS, faults, faults_on, rig_config
+from tactile_push.pipeline.orientation import quaternion_of_yaw
 from tactile_push.simulation import Readout, Rig, serve
 from tactile_push.simulation.pace import Pace
-from tactile_push.tactile import Reading, Sentence, encode, quaternion_of_yaw
+from tactile_push.tactile import Reading
 
 FRESHEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 MARKER_RATE = 10.0  # [Hz]

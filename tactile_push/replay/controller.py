@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """What `push_controller` does, over a bag's messages."""
 
 import math
@@ -18,8 +7,6 @@ from collections import deque
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
-from tactile_push.configuration import values_of
-from tactile_push.configuration.push_controller import PARAMETERS, make_control, take_values
 from tactile_push.control import (
     ANOTHER_COMMAND,
     CLOCK_JUMPED,
@@ -31,8 +18,10 @@ from tactile_push.control import (
     plausible,
     tick_of,
 )
+from tactile_push.parameters import values_of
+from tactile_push.parameters.push_controller import PARAMETERS, make_control, take_values
+from tactile_push.pipeline.stamps import seconds_since
 from tactile_push.replay.geometry import Stamp
-from tactile_push.stamps import seconds_since
 
 PATIENCE = 10**9  # so much later in the bag a contact may come that a tick has used [ns]
 HALF_A_NANOSECOND = 0.5e-9  # stamps differ by more [s]

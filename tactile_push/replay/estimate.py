@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """What the control periods in a bag tell about the objects that were pushed."""
 
 import os
@@ -21,6 +10,7 @@ from typing import Any
 
 from tactile_push.bags import BagError, BagReader
 from tactile_push.control import tick_of
+from tactile_push.pipeline.stamps import epoch_of
 from tactile_push.replay.new_bag import copy, new_bag
 from tactile_push.replay.object_history import ObjectFigures, ObjectHistory
 from tactile_push.replay.parameters import (
@@ -30,7 +20,6 @@ from tactile_push.replay.parameters import (
     sensing_parameters,
 )
 from tactile_push.replay.sensing import POSE, STATE, TOPICS, Sensing
-from tactile_push.stamps import epoch_of
 
 TICKS, TRUTH = 'push_controller/state', 'ground_truth/state'
 JOINT_STATE = 'sensor_msgs/msg/JointState'

@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """One finger's way from reading to command and estimate, over a bag's messages."""
 
 import math
@@ -18,16 +7,17 @@ from collections.abc import Callable, Iterable, Mapping, Set
 from typing import Any
 
 from tactile_push.bags import Message
-from tactile_push.bags.cdr import encode_joint_state, encode_pose, encode_twist
-from tactile_push.configuration.contact_geometry import PARAMETERS as OF_GEOMETRY
-from tactile_push.configuration.push_controller import PARAMETERS as OF_CONTROLLER
 from tactile_push.control import Tick, tick_values
+from tactile_push.parameters.contact_geometry import PARAMETERS as OF_GEOMETRY
+from tactile_push.parameters.push_controller import PARAMETERS as OF_CONTROLLER
+from tactile_push.pipeline.cdr import encode_joint_state, encode_pose, encode_twist
+from tactile_push.pipeline.orientation import quaternion_of_yaw, yaw_of_quaternion
 from tactile_push.replay.comparison import Comparison
 from tactile_push.replay.controller import Controller, Replayed
 from tactile_push.replay.geometry import Felt, Geometry, Stamp
 from tactile_push.replay.own_ticks import OwnTicks
 from tactile_push.replay.sensing import POSE, TOPICS, Output, Sensing, SensingAgain
-from tactile_push.tactile import quaternion_of_yaw, reading_values, yaw_of_quaternion
+from tactile_push.tactile import reading_values
 
 INPUTS = {
     'tactile': 'sensor_msgs/msg/JointState',

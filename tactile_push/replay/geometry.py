@@ -1,25 +1,14 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """What `contact_geometry` does, over a bag's messages."""
 
 import math
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from tactile_push.configuration import values_of
-from tactile_push.configuration.contact_geometry import PARAMETERS, make_finder, take_values
-from tactile_push.stamps import seconds_since
+from tactile_push.parameters import values_of
+from tactile_push.parameters.contact_geometry import PARAMETERS, make_finder, take_values
+from tactile_push.pipeline.stamps import seconds_since
 from tactile_push.tactile import NO_CONTACT, REFUSALS, Contact, Reading, ReadingRejectedError
 
 UNREADABLE = 'no azimuth and elevation'

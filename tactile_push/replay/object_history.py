@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """From what single control periods tell of an object to what the whole bag does."""
 
 import math
@@ -20,12 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tactile_push.bags.known import known_step
 from tactile_push.control import PUSHING
 from tactile_push.estimation import CONTRADICTIONS
 from tactile_push.replay.comparison import SensedTick
 from tactile_push.replay.geometry import Stamp
 from tactile_push.replay.sensing import Sensed
+from tactile_push.report.known import known_step
 
 BOUNDS = ('d_lower', 'd_upper', 'd_least', 'd_most')
 ROUNDING = 1e-9  # of a length [m]
@@ -89,7 +78,7 @@ class ObjectFigures:
     at : float or None
         When that was [s], from the start of the bag.
     known_step : int or None
-        Step from which on d was known to 2 mm for good, see `tactile_push.bags.known`.
+        Step from which on d was known to 2 mm for good, see `tactile_push.report.known`.
     contradictions : list of Contradiction
         When the readings contradicted the object.
     forgotten : list of Forgotten

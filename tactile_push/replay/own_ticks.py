@@ -1,29 +1,18 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """Control periods for a bag that does not tell when the controller ticked, or had none."""
 
 import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from tactile_push.configuration import values_of
-from tactile_push.configuration.finger import make_finger
-from tactile_push.configuration.push_controller import PARAMETERS, make_control
 from tactile_push.control import PushLaw
+from tactile_push.parameters import values_of
+from tactile_push.parameters.finger import make_finger
+from tactile_push.parameters.push_controller import PARAMETERS, make_control
+from tactile_push.pipeline.stamps import seconds_since
 from tactile_push.replay.controller import Replayed
 from tactile_push.replay.geometry import Stamp
-from tactile_push.stamps import seconds_since
 
 
 class OwnTicks:

@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """Parameters of a replay: those of the recorded nodes, and those that somebody wants instead."""
 
 import difflib
@@ -22,10 +11,10 @@ from typing import Any
 
 import yaml
 
-from tactile_push.configuration.active_sensing import PARAMETERS as OF_SENSING
-from tactile_push.configuration.contact_geometry import PARAMETERS as OF_GEOMETRY
-from tactile_push.configuration.finger import LINKS
-from tactile_push.configuration.push_controller import PARAMETERS as OF_CONTROLLER
+from tactile_push.parameters.active_sensing import PARAMETERS as OF_SENSING
+from tactile_push.parameters.contact_geometry import PARAMETERS as OF_GEOMETRY
+from tactile_push.parameters.finger import LINKS
+from tactile_push.parameters.push_controller import PARAMETERS as OF_CONTROLLER
 
 NODES = {
     'contact_geometry': OF_GEOMETRY,

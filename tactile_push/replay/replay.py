@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """Goes through a bag, replays its fingers, and writes a bag with what comes out."""
 
 import os
@@ -21,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from tactile_push.bags import BagError, BagReader, BagWriter
+from tactile_push.pipeline.stamps import epoch_of
 from tactile_push.replay.comparison import Comparison
 from tactile_push.replay.finger import INPUTS, OUTPUTS, Finger
 from tactile_push.replay.new_bag import copy, new_bag
@@ -35,7 +25,6 @@ from tactile_push.replay.parameters import (
     without_effect,
 )
 from tactile_push.replay.sensing import TOPICS as OF_SENSING
-from tactile_push.stamps import epoch_of
 
 EVENTS = '/parameter_events'
 READINGS = {'tactile', 'contact_geometry/state', 'contact'}  # of which a replay needs one

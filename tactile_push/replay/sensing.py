@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """What `active_sensing` does, over a bag's control periods."""
 
 import math
@@ -18,15 +7,15 @@ from collections.abc import Iterator, Mapping, Set
 from typing import Any, NamedTuple
 
 from tactile_push.bags import Message
-from tactile_push.bags.cdr import encode_joint_state, encode_unsure_pose
-from tactile_push.configuration import values_of
-from tactile_push.configuration.active_sensing import PARAMETERS, make_sensing
 from tactile_push.control import Tick
 from tactile_push.estimation import sensing_values, tells_pose
+from tactile_push.parameters import values_of
+from tactile_push.parameters.active_sensing import PARAMETERS, make_sensing
+from tactile_push.pipeline.cdr import encode_joint_state, encode_unsure_pose
+from tactile_push.pipeline.orientation import covariance_in_space, quaternion_of_yaw
+from tactile_push.pipeline.stamps import seconds_since, stamp_before
 from tactile_push.replay.comparison import SensedTick
 from tactile_push.replay.geometry import Stamp
-from tactile_push.stamps import seconds_since, stamp_before
-from tactile_push.tactile import covariance_in_space, quaternion_of_yaw
 
 STATE, POSE = 'active_sensing/state', 'object_pose'
 TOPICS = {

@@ -1,18 +1,17 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """From a bag to what its report shows."""
 
+from tactile_push.report.data import Episode, Run, Scene, Series
+from tactile_push.report.page import report_html
 from tactile_push.report.run import messages_shown, read_run
 
-__all__ = ['messages_shown', 'read_run']
+__all__ = [
+    'Episode',
+    'Run',
+    'Scene',
+    'Series',
+    'messages_shown',
+    'read_run',
+    'report_html',
+]

@@ -1,26 +1,15 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """How well the finger pushed, beside the paper, in words and numbers for people."""
 
 import math
 from collections import Counter
 from collections.abc import Mapping
 
-from tactile_push.bags.known import KNOWN, known_step
-from tactile_push.bags.merit import PushFigures, PushHistory
-from tactile_push.bags.paper import Range, paper_figures
 from tactile_push.control import PUSHING, STATES
+from tactile_push.paper import Range, paper_figures
+from tactile_push.report.known import KNOWN, known_step
+from tactile_push.report.merit import PushFigures, PushHistory
 from tactile_push.report.reading import Table
 
 BAND = math.radians(3.0)  # how near to its desired value theta counts as settled [rad]

@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """The topics of a bag that a report needs, as columns."""
 
 import math
@@ -23,10 +12,10 @@ import numpy as np
 import numpy.typing as npt
 
 from tactile_push.bags import BagError, BagReader
-from tactile_push.bags.merit import FIELDS
-from tactile_push.plots.report_data import ERROR, WARNING
-from tactile_push.plots.report_episodes import Label
-from tactile_push.tactile import yaw_of_quaternion
+from tactile_push.pipeline.orientation import yaw_of_quaternion
+from tactile_push.report.data import ERROR, WARNING
+from tactile_push.report.episodes import Label
+from tactile_push.report.merit import FIELDS
 
 JOINTS, POSE = 'sensor_msgs/msg/JointState', 'geometry_msgs/msg/PoseStamped'
 UNSURE_POSE = 'geometry_msgs/msg/PoseWithCovarianceStamped'

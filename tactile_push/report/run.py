@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """A run as its bag tells it."""
 
 import json
@@ -22,8 +11,8 @@ import numpy as np
 from tactile_push.bags import BagReader
 from tactile_push.control import INACTIVE, STATES, STOP_REASONS, STOPPED, WAITING
 from tactile_push.estimation import CONTRADICTIONS
-from tactile_push.plots.report_data import ERROR, NOTE, WARNING, Episode, Run, Series
-from tactile_push.plots.report_episodes import Label, episodes, joined
+from tactile_push.report.data import ERROR, NOTE, WARNING, Episode, Run, Series
+from tactile_push.report.episodes import Label, episodes, joined
 from tactile_push.report.outcome import outcome_of
 from tactile_push.report.reading import (
     CONTACT,

@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """What the view from above shows beside the run: the finger and the object."""
 
 import math
@@ -19,9 +8,9 @@ from collections.abc import Mapping
 import numpy as np
 import numpy.typing as npt
 
-from tactile_push.configuration import values_of
-from tactile_push.configuration.sim_plant import PARAMETERS, rig_config
-from tactile_push.plots.report_data import Scene
+from tactile_push.parameters import values_of
+from tactile_push.parameters.sim_plant import PARAMETERS, rig_config
+from tactile_push.report.data import Scene
 from tactile_push.report.reading import CONTACT, TRUE_POSE, TRUTH, Table
 from tactile_push.simulation import RigConfig, paper_block, paper_disk
 

@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """Bags cut off anywhere, with wrong bytes anywhere: what is sound is read, the rest is told of.
 
 What is sound is known from mcap's own reader of the file before it was damaged.
@@ -26,7 +15,6 @@ import tracemalloc
 import lz4.frame
 import pytest
 import zstandard
-from bag_files import SECOND, as_tuples, mcap_bytes, some_messages
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mcap.reader import make_reader
@@ -34,6 +22,7 @@ from mcap.records import Chunk, Message
 from mcap.stream_reader import StreamReader, breakup_chunk
 from mcap.writer import CompressionType, Writer
 
+from support.bag_files import SECOND, as_tuples, mcap_bytes, some_messages
 from tactile_push.bags import BagError, BagReader
 
 WRITTEN = some_messages(120)

@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """The node between sensor and controller: messages as they should not be, and its health."""
 
 import math
@@ -27,9 +16,9 @@ from sensor_msgs.msg import JointState  # noqa: E402
 
 from tactile_push.nodes import contact_geometry  # noqa: E402
 from tactile_push.nodes.contact_geometry import ContactGeometry  # noqa: E402
-from tactile_push.nodes.diagnostics import ERROR, OK, WARN  # noqa: E402
-from tactile_push.processes import claim_domain  # noqa: E402
+from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN  # noqa: E402
 from tactile_push.tactile import REFUSALS  # noqa: E402
+from tactile_push.testing.processes import claim_domain  # noqa: E402
 
 PROPERTY = settings(derandomize=True, deadline=None, max_examples=100)
 AHEAD = math.pi / 2.0

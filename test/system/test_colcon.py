@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 import os
 import shutil
 import subprocess
@@ -65,8 +54,8 @@ def test_colcon_build_gives_runnable_executables(tmp_path: Path):
         assert (share / file).exists(), file
     assert (install / 'share/ament_index/resource_index/packages/tactile_push').exists()
     (library,) = install.glob('lib/python*/site-packages')
-    for name in ('report.html', 'report.css', 'report.js', 'report_plots.js', 'report_view.js'):
-        assert (library / 'tactile_push' / 'plots' / name).exists(), name
+    for name in ('page.html', 'page.css', 'page.js', 'plots.js', 'view.js'):
+        assert (library / 'tactile_push' / 'report' / 'assets' / name).exists(), name
     environment = {**os.environ, 'PYTHONPATH': str(library)}
     for name in EXECUTABLES:
         run = subprocess.run(

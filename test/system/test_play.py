@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """Bags played to real nodes, by the node and by the command."""
 
 import os
@@ -28,17 +17,17 @@ import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped
-from live import CONFIG, PATIENCE, Observer, field, seconds
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Int64, String
 from std_srvs.srv import SetBool, Trigger
 
+from support.live import CONFIG, PATIENCE, Observer, field, seconds
 from tactile_push.bags import BagWriter
 from tactile_push.bags.reader import BagReader
-from tactile_push.bags.recorder import Recorder
 from tactile_push.control import PUSHING, STATES
-from tactile_push.processes import NodeProcesses
+from tactile_push.recording.recorder import Recorder
+from tactile_push.testing.processes import NodeProcesses
 
 STEPS = 80
 PUSHED = float(STATES.index(PUSHING))
@@ -373,7 +362,8 @@ def test_bag_that_cannot_be_read_further_ends_the_player_with_one_line_and_statu
     bag = write_numbers(tmp_path / 'bag', [0, 1, 2])
     program = f"""
 import sys
-from tactile_push.bags import player, reader
+from tactile_push.bags import reader
+from tactile_push.playing import player
 from tactile_push.bags.reader import BagError
 from tactile_push.nodes.bag_player import main
 

@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """What nodes commanded comes out again, to the bit, of the bag that was recorded meanwhile."""
 
 import signal
@@ -18,17 +7,17 @@ from pathlib import Path
 
 from geometry_msgs.msg import PoseStamped
 from lifecycle_msgs.msg import Transition
-from live import CONFIG, Observer, field, seconds
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
+from support.live import CONFIG, Observer, field, seconds
 from tactile_push.bags import BagReader
 from tactile_push.cli import main
 from tactile_push.control import PUSHING, STATES, STOP_REASONS, STOPPED
-from tactile_push.processes import NodeProcesses
 from tactile_push.replay import replay
+from tactile_push.testing.processes import NodeProcesses
 
 
 def test_bag_of_an_eventful_run_replays_to_the_bit(

@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """Active sensing as a node, beside the truth that the simulated plant tells."""
 
 import math
@@ -21,13 +10,13 @@ import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
-from live import CONFIG, Observer, Rig, field, seconds
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
+from support.live import CONFIG, Observer, Rig, field, seconds
 from tactile_push.estimation import CONTRADICTIONS
-from tactile_push.processes import NodeProcesses
-from tactile_push.tactile import yaw_of_quaternion
+from tactile_push.pipeline.orientation import yaw_of_quaternion
+from tactile_push.testing.processes import NodeProcesses
 
 NOISE = 0.0035  # of the sensor [rad]
 PERIOD = 0.1

@@ -1,16 +1,5 @@
-# Copyright 2026 The tactile_push authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 """The rule against jumps: the bound against the mechanics, and noise and outliers against it."""
 
 import math
@@ -20,12 +9,7 @@ import pytest
 
 from tactile_push.mechanics import Outline, Slider
 from tactile_push.simulation import Rig, RigConfig
-from tactile_push.tactile import (
-    JUMP_TOLERANCE,
-    MAX_THETA_RATE,
-    JumpGuard,
-    ReadingRejectedError,
-)
+from tactile_push.tactile import JUMP_TOLERANCE, MAX_THETA_RATE, JumpGuard, ReadingRejectedError
 
 DEGREE = math.radians(1.0)
 NOISE = 0.5 * DEGREE

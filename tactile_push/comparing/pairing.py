@@ -1,0 +1,222 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which message of one bag belongs to which message of another."""
+
+from collections import OrderedDict, deque
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from itertools import zip_longest
+
+from tactile_push.bags.headers import HeaderStamps
+from tactile_push.bags.reader import BagReader, Message
+
+# What waits at the most for its partner in the other bag; the oldest message is given up then.
+_MOST_MESSAGES = 10_000
+_MOST_BYTES = 16_000_000
+# Messages after which what a topic says about the bags is not taken for the present any more.
+_LATELY = 1000
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """Two messages of a topic that belong together, or one that has no partner.
+
+    Parameters
+    ----------
+    topic : str
+        Name of the topic.
+    key : int
+        What they have in common: the stamp [ns], or the place in the topic, counted from 0.
+    a, b : Message or None
+        The messages of the two bags; one may be missing.
+    """
+
+    topic: str
+    key: int
+    a: Message | None
+    b: Message | None
+
+
+def pairs_in_order(a: BagReader, b: BagReader, topic: str) -> Iterator[Pair]:
+    """Pair the first message of a topic with the first, and so on.
+
+    Parameters
+    ----------
+    a, b : BagReader
+        The bags.
+    topic : str
+        Name of the topic.
+
+    Returns
+    -------
+    iterator of Pair
+        All messages of the topic.
+    """
+    both = zip_longest(a.messages([topic]), b.messages([topic]))
+    for place, (message_a, message_b) in enumerate(both):
+        yield Pair(topic, place, message_a, message_b)
+
+
+def pairs_by_stamp(a: BagReader, b: BagReader, topics: Collection[str]) -> Iterator[Pair]:
+    """Pair messages with the same stamp, the first such of a topic with the first, and so on.
+
+    Both bags are read once and side by side, and stamps may come in any order. A message waits
+    until its partner comes, while no more than 10,000 messages and 16 MB of the same bag wait;
+    then it has none. A bag that starts late, ends early or lacks a topic for longer than that
+    does no harm. Partners are missed if the bags have nothing in common for so long, or what they
+    have is out of order by so much.
+
+    Parameters
+    ----------
+    a, b : BagReader
+        The bags.
+    topics : collection of str
+        Names of the topics, all with headers in both bags.
+
+    Returns
+    -------
+    iterator of Pair
+        All messages of the topics. Messages without a partner may come late.
+    """
+    sides = (_Side(a, topics), _Side(b, topics))
+    pace = _Pace(*sides)
+    while side := pace.next_to_read():
+        message = next(side.messages, None)
+        if message is None:
+            side.ended = True
+            continue
+        other = sides[1] if side is sides[0] else sides[0]
+        topic, stamp = message.topic, side.stamps.of(message)
+        pace.take_note(side, other, topic, stamp)
+        partner = other.take(topic, stamp)
+        if partner is None:
+            side.keep(message, stamp, other.newest.get(topic))
+            for left in side.give_up():
+                yield _single(left, side is sides[0])
+        else:
+            pair = (message, partner) if side is sides[0] else (partner, message)
+            yield Pair(topic, stamp, *pair)
+    for side in sides:
+        for left in side.waiting.values():
+            yield _single(left, side is sides[0])
+
+
+def _single(left: '_Waiting', of_a: bool) -> Pair:
+    """Return a message that has no partner."""
+    pair = (left.message, None) if of_a else (None, left.message)
+    return Pair(left.message.topic, left.stamp, *pair)
+
+
+@dataclass(frozen=True, slots=True)
+class _Waiting:
+    """A message that waits for its partner."""
+
+    message: Message
+    stamp: int
+
+
+class _Side:
+    """One bag: where its reader is and which of its messages wait for their partners.
+
+    Attributes
+    ----------
+    newest, read_at : dict of str to int
+        Last stamp read, and how many messages of both bags were read before it, by topic.
+    waiting : OrderedDict of int to _Waiting
+        By the order in which they were read.
+    ahead : set of int
+        Those of them that the other bag has not come to yet. The others may still find a partner
+        if the other bag's stamps are out of order.
+    """
+
+    def __init__(self, bag: BagReader, topics: Collection[str]) -> None:
+        self.messages = iter(bag.messages(topics))
+        self.stamps = HeaderStamps(bag)
+        self.ended = False
+        self.newest: dict[str, int] = {}
+        self.read_at: dict[str, int] = {}
+        self.waiting: OrderedDict[int, _Waiting] = OrderedDict()
+        self.ahead: set[int] = set()
+        self._numbers: dict[tuple[str, int], deque[int]] = {}
+        self._queues: dict[str, deque[int]] = {topic: deque() for topic in topics}
+        self._read = 0
+        self._bytes = 0
+
+    def keep(self, message: Message, stamp: int, reached: int | None) -> None:
+        """Let a message wait; the other bag has reached a stamp of the topic."""
+        number = self._read
+        self._read += 1
+        self.waiting[number] = _Waiting(message, stamp)
+        self._bytes += len(message.data)
+        self._numbers.setdefault((message.topic, stamp), deque()).append(number)
+        if reached is None or stamp > reached:
+            queue = self._queues[message.topic]
+            while queue and queue[0] not in self.waiting:
+                queue.popleft()
+            queue.append(number)
+            self.ahead.add(number)
+
+    def take(self, topic: str, stamp: int) -> Message | None:
+        """Return the first message with this stamp, which waits no longer."""
+        numbers = self._numbers.get((topic, stamp))
+        return self._remove(numbers[0]).message if numbers else None
+
+    def pass_by(self, topic: str, stamp: int) -> None:
+        """Take note that the other bag has come to a stamp of a topic."""
+        queue = self._queues[topic]
+        while queue and (queue[0] not in self.waiting or self.waiting[queue[0]].stamp < stamp):
+            self.ahead.discard(queue.popleft())
+
+    def give_up(self) -> Iterator[_Waiting]:
+        """Return the messages that cannot wait any longer."""
+        while len(self.waiting) > _MOST_MESSAGES or (
+            self._bytes > _MOST_BYTES and len(self.waiting) > 1
+        ):
+            yield self._remove(next(iter(self.waiting)))
+
+    def _remove(self, number: int) -> _Waiting:
+        left = self.waiting.pop(number)
+        self._bytes -= len(left.message.data)
+        self.ahead.discard(number)
+        key = (left.message.topic, left.stamp)
+        numbers = self._numbers[key]
+        numbers.popleft()  # the oldest of its stamp is always the first to go
+        if not numbers:
+            del self._numbers[key]
+        return left
+
+
+class _Pace:
+    """Decides which bag is to be read next, so that partners are read soon after one another.
+
+    The stamps of the topic that came in both bags most recently tell which one is behind. If
+    there was none lately, because one bag lacks something or its clock was set, it is the one of
+    which fewer messages wait for the other bag to get there.
+    """
+
+    def __init__(self, a: _Side, b: _Side) -> None:
+        self._sides = a, b
+        self._read = 0
+        self._topic = ''
+        self._in_both = -_LATELY  # which message, of all that were read, made it so recent
+
+    def next_to_read(self) -> _Side | None:
+        """Return the bag to read, or None if both have ended."""
+        a, b = self._sides
+        if a.ended or b.ended:
+            return None if a.ended and b.ended else b if a.ended else a
+        if self._read - self._in_both < _LATELY:
+            newest = a.newest[self._topic], b.newest[self._topic]
+            if newest[0] != newest[1]:
+                return a if newest[0] < newest[1] else b
+        return min(a, b, key=lambda side: (len(side.ahead), len(side.waiting)))
+
+    def take_note(self, side: _Side, other: _Side, topic: str, stamp: int) -> None:
+        """Take note of a message that was read of a bag."""
+        other.pass_by(topic, stamp)
+        side.newest[topic] = stamp
+        side.read_at[topic] = self._read
+        self._read += 1
+        in_both = other.read_at.get(topic, -1)
+        if in_both >= max(self._in_both, 0):
+            self._topic, self._in_both = topic, in_both

@@ -1,0 +1,51 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""A node's time as a number."""
+
+import time
+
+from builtin_interfaces.msg import Time
+from rclpy.node import Node
+
+from tactile_push.pipeline.stamps import epoch_of, seconds_since
+
+AT_ONCE = 1e-3  # in which two clocks are read, unless something comes in between [s]
+TRIES = 10
+
+
+class NodeTime:
+    """Gives times in seconds since an epoch close by, see `tactile_push.pipeline.stamps`.
+
+    Parameters
+    ----------
+    node : Node
+        The node, whose clock it is.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._clock = node.get_clock()
+        self._epoch = 0
+
+    def now(self) -> float:
+        """Give the present time [s]."""
+        return self.of(self._clock.now().to_msg())
+
+    def now_and_steady(self) -> tuple[Time, float]:
+        """Give the present time, and the same on a clock that cannot be set [s].
+
+        If this process had to wait between the two they are read again: the wait would look like
+        a clock that was set.
+        """
+        for _ in range(TRIES):
+            before = time.monotonic()
+            now = self._clock.now()
+            steady = time.monotonic()
+            if steady - before < AT_ONCE:
+                break
+        return now.to_msg(), steady
+
+    def of(self, stamp: Time) -> float:
+        """Give the time of a message's stamp [s]."""
+        if not self._epoch:  # simulated time, which may not run yet, starts at 0
+            self._epoch = epoch_of(self._clock.now().nanoseconds // 10**9)
+        return seconds_since(self._epoch, stamp.sec, stamp.nanosec)

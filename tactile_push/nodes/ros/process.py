@@ -1,0 +1,123 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""A node as a process: starts, spins, and ends without a traceback."""
+
+import re
+import signal
+import sys
+from types import FrameType
+
+import rclpy
+from rclpy.exceptions import ParameterException
+from rclpy.executors import ExternalShutdownException
+from rclpy.logging import LoggingSeverity, set_logger_level
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args
+
+from tactile_push.nodes.ros.executor import Executor
+from tactile_push.nodes.ros.last_resort import exit_after
+from tactile_push.nodes.ros.parameters import ConfigurationError
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # by a person, a manager, a terminal
+FAREWELL = 2.0  # for the middleware to leave, once all else has ended [s]
+
+
+def run(node_class: type[Node]) -> int:
+    """Run a node until SIGINT, SIGTERM, SIGHUP or the end of its context.
+
+    The signals are taken here rather than by rclpy, whose handler ends the context before a last
+    command could be sent. The process ends with it: should the middleware not leave in time, it
+    does so without.
+
+    Parameters
+    ----------
+    node_class : class
+        The node's class, with its `NAME` and its `PARAMETERS`.
+
+    Returns
+    -------
+    int
+        Exit status: 0 done, 1 a file or device failed the node, 2 bad input.
+    """
+    if {'-h', '--help'} & set(sys.argv[1:]):
+        print(_help(node_class))
+        return 0
+    stopping = False
+
+    def stop(signum: int, frame: FrameType | None) -> None:
+        nonlocal stopping
+        stopping = True
+
+    for signum in SIGNALS:
+        if signum != signal.SIGHUP or signal.getsignal(signum) != signal.SIG_IGN:  # as nohup asks
+            signal.signal(signum, stop)
+    set_logger_level('rcl', LoggingSeverity.FATAL)  # it logs what it then also throws
+    try:
+        foreign = remove_ros_args(sys.argv)[1:]
+        rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
+    except Exception as error:  # rcl's own exception types are not public
+        return _refuse(node_class, f'bad ROS arguments: {_brief(error)}')
+    set_logger_level('rcl', LoggingSeverity.UNSET)
+    try:
+        if foreign:
+            raise ConfigurationError(
+                f'unknown argument {foreign[0]}, expected --ros-args -p NAME:=VALUE'
+            )
+        node = node_class()
+    except (ConfigurationError, ParameterException) as error:  # the latter of use_sim_time
+        status = _refuse(node_class, str(error))
+        exit_after(FAREWELL, status)
+        rclpy.try_shutdown()
+        return status
+    executor = Executor()
+    executor.add_node(node)
+    status = 0
+    try:
+        with node.handle:  # in use, so the middleware loses the node only at the end of the block
+            try:
+                try:
+                    while not stopping and rclpy.ok():
+                        executor.spin_once()
+                except ExternalShutdownException:
+                    pass
+                finally:
+                    executor.shutdown()
+                    node.destroy_node()
+            except OSError as error:
+                status = 1
+                where = '' if error.filename is None else f'{error.filename}: '
+                print(f'{node_class.NAME}: {where}{error.strerror or error}', file=sys.stderr)
+            # Fast DDS built for an old C library waits for ever, without letting go of the
+            # interpreter, if it is just being told of another node that comes or goes.
+            exit_after(FAREWELL, status)
+    finally:
+        rclpy.try_shutdown()
+        # Python restores its own handlers at exit, and an impatient second signal would show.
+        for signum in SIGNALS:
+            signal.signal(signum, signal.SIG_IGN)
+    return status
+
+
+def _brief(error: Exception) -> str:
+    """Give rcl's words on one line, without the places in its source."""
+    words = ' '.join(re.sub(r',\s+at \S+:\d+', '', str(error)).split())
+    return words.removeprefix('Failed to parse ROS arguments: ')
+
+
+def _refuse(node_class: type[Node], reason: str) -> int:
+    print(f'{node_class.NAME}: {reason}', file=sys.stderr)
+    return 2
+
+
+def _help(node_class: type[Node]) -> str:
+    lines = [
+        f'usage: {node_class.NAME} [--ros-args -p NAME:=VALUE … --params-file FILE …]',
+        '',
+        'parameters:',
+    ]
+    for parameter in node_class.PARAMETERS:
+        unit = f' [{parameter.unit}]' if parameter.unit else ''
+        lines.append(f'  {parameter.name} := {parameter.default}')
+        lines.append(f'      {parameter.description}{unit}; {parameter.expected()}')
+    return '\n'.join(lines)

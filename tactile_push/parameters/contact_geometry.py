@@ -1,0 +1,122 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""Parameters of `contact_geometry`, and what is made of them."""
+
+from types import SimpleNamespace
+
+from tactile_push.parameters.parameter import Parameter
+from tactile_push.tactile import JUMP_TOLERANCE, MAX_THETA_RATE, ContactFinder
+
+PARAMETERS = (
+    Parameter('finger_radius', 0.0135, 'm', "effective radius of the finger's disk", 1e-4, 1.0),
+    Parameter(
+        'use_joint_states',
+        True,
+        '',
+        'take the direction of the finger tip from joint_states; otherwise it is mount_angle',
+        read_only=True,
+    ),
+    Parameter(
+        'mount_angle',
+        1.5707963267948966,
+        'rad',
+        'angle of the finger tip in finger_base at joint angles zero',
+        -6.3,
+        6.3,
+    ),
+    Parameter(
+        'joint_names',
+        ['proximal_joint', 'distal_joint'],
+        '',
+        'the moving joints in joint_states whose angles add up to the direction of the tip',
+        read_only=True,
+    ),
+    Parameter(
+        'joint_state_timeout',
+        0.1,
+        's',
+        'largest time between a reading and the joint state used for it',
+        0.001,
+        10.0,
+    ),
+    Parameter(
+        'max_out_of_plane',
+        0.2,
+        '',
+        'largest size of cos(elevation) sin(azimuth), by which the direction of a contact '
+        'sticks out of the plane of motion',
+        0.001,
+        1.0,
+    ),
+    Parameter(
+        'detectable_range',
+        1.5707963267948966,
+        'rad',
+        'largest angle between the pole and a contact that the sensor detects properly; pi/2 '
+        'is the whole hemisphere',
+        0.01,
+        1.6,
+    ),
+    Parameter(
+        'max_theta_rate',
+        MAX_THETA_RATE,
+        'rad/s',
+        'how fast theta can turn; it grows with the speed of the belt',
+        0.01,
+        1000.0,
+    ),
+    Parameter(
+        'jump_tolerance',
+        JUMP_TOLERANCE,
+        'rad',
+        'how far two readings of the same theta may differ; pi refuses no jump',
+        0.001,
+        3.2,
+    ),
+)
+
+
+def make_finder(p: SimpleNamespace) -> ContactFinder:
+    """Make the contact finder from the values of the parameters.
+
+    Parameters
+    ----------
+    p : SimpleNamespace
+        The values by name.
+
+    Returns
+    -------
+    ContactFinder
+        It has felt nothing yet.
+
+    Raises
+    ------
+    ValueError
+        If the tip turns with joints and none is named.
+    """
+    if p.use_joint_states and not p.joint_names:
+        raise ValueError('joint_names: expected the name of a joint, got []')
+    timeout = p.joint_state_timeout if p.use_joint_states else None
+    finder = ContactFinder(p.finger_radius, joint_state_timeout=timeout)
+    take_values(finder, p)
+    return finder
+
+
+def take_values(finder: ContactFinder, p: SimpleNamespace) -> None:
+    """Let the finder know of values that may change while it runs.
+
+    Parameters
+    ----------
+    finder : ContactFinder
+        The finder.
+    p : SimpleNamespace
+        The values by name.
+    """
+    finder.radius = p.finger_radius
+    finder.max_out_of_plane = p.max_out_of_plane
+    finder.detectable_range = p.detectable_range
+    finder.mount_angle = p.mount_angle
+    finder.jumps.max_rate = p.max_theta_rate
+    finder.jumps.tolerance = p.jump_tolerance
+    if finder.pole is not None:
+        finder.pole.timeout = p.joint_state_timeout

@@ -1,0 +1,85 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""Reads a bag some way ahead of its player, so that nothing waits for a file or for zstd."""
+
+from collections import deque
+from collections.abc import Iterator
+from threading import Condition, Thread
+
+from tactile_push.playing.schedule import Event
+
+MOST = 2**23  # read ahead [B]
+BATCH = 2**16  # handed over at once [B]
+OVERHEAD = 500  # an event takes besides its message's data [B]
+
+
+class ReadAhead(Iterator[Event]):
+    """The same events, read in a thread of their own.
+
+    What is raised there is raised again where the event is missed.
+
+    Parameters
+    ----------
+    events : iterator of Event
+        The events.
+    """
+
+    def __init__(self, events: Iterator[Event]) -> None:
+        self._changed = Condition()
+        self._batches: deque[tuple[int, deque[Event]]] = deque()
+        self._size = 0  # of all batches [B]
+        self._ended = False
+        self._error: Exception | None = None
+        self._taken: deque[Event] = deque()
+        self._thread = Thread(target=self._read, args=(events,), name='read ahead', daemon=True)
+        self._thread.start()
+
+    def __next__(self) -> Event:
+        """Return the next event."""
+        while not self._taken:
+            with self._changed:
+                self._changed.wait_for(lambda: self._batches or self._ended)
+                if not self._batches:
+                    if self._error is not None:
+                        raise self._error
+                    raise StopIteration
+                size, self._taken = self._batches.popleft()
+                self._size -= size
+                self._changed.notify_all()
+        return self._taken.popleft()
+
+    def close(self) -> None:
+        """Read no further; what was read is forgotten."""
+        with self._changed:
+            self._ended = True
+            self._batches.clear()
+            self._changed.notify_all()
+        self._thread.join()
+
+    def _read(self, events: Iterator[Event]) -> None:
+        batch: deque[Event] = deque()
+        size = 0
+        try:
+            for event in events:
+                batch.append(event)
+                size += OVERHEAD + (0 if event.message is None else len(event.message.data))
+                if size >= BATCH:
+                    if not self._hand_over(batch, size):
+                        return
+                    batch, size = deque(), 0
+        except Exception as error:
+            self._error = error
+        self._hand_over(batch, size)
+        with self._changed:
+            self._ended = True
+            self._changed.notify_all()
+
+    def _hand_over(self, batch: deque[Event], size: int) -> bool:
+        """Wait for room; tell whether there is any need to read on."""
+        with self._changed:
+            self._changed.wait_for(lambda: self._size < MOST or self._ended)
+            if not self._ended and batch:
+                self._batches.append((size, batch))
+                self._size += size
+                self._changed.notify_all()
+            return not self._ended

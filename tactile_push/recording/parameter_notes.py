@@ -1,0 +1,115 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""Asks the package's nodes for their parameters, for whoever wants to note them down."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from rcl_interfaces.srv import GetParameters, ListParameters
+from rclpy.client import Client
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+from rclpy.node import Node
+from rclpy.parameter import parameter_value_to_python
+from rclpy.task import Future
+
+NODES = (
+    'sensor_driver',
+    'contact_geometry',
+    'push_controller',
+    'active_sensing',
+    'sim_plant',
+    'experiment',
+    'bag_recorder',
+    'bag_player',
+)
+LOOK_PERIOD = 0.2  # between looks for nodes that have not been asked [s]
+ASK_AGAIN = 5  # looks after which an answer that has not come is lost
+
+
+class ParameterNotes:
+    """The parameters of the package's nodes, as each gives them the first time it is seen.
+
+    A node that does not answer is left out; nobody waits for it.
+
+    Parameters
+    ----------
+    node : Node
+        The node that asks, and leaves itself out.
+    noted : callable
+        Told all that is known whenever a node has answered: full names without the leading slash
+        to parameters by name.
+    """
+
+    def __init__(self, node: Node, noted: Callable[[dict[str, dict[str, Any]]], None]) -> None:
+        self._node = node
+        self._noted = noted
+        self._known: dict[str, dict[str, Any]] = {}
+        self._questions: dict[str, _Question] = {}
+        steady_clock = Clock(clock_type=ClockType.STEADY_TIME)
+        node.create_timer(LOOK_PERIOD, self._look, clock=steady_clock)
+
+    def _look(self) -> None:
+        there = {
+            f'{namespace.rstrip("/")}/{name}'
+            for name, namespace in self._node.get_node_names_and_namespaces()
+            if name in NODES
+        } - {self._node.get_fully_qualified_name()}
+        for full_name in there - self._questions.keys() - self._known.keys():
+            self._questions[full_name] = _Question(self._node, full_name)
+        for full_name, question in list(self._questions.items()):
+            if question.answer is not None:
+                self._known[full_name] = question.answer
+                self._noted({name.lstrip('/'): values for name, values in self._known.items()})
+            if question.answer is not None or full_name not in there:
+                question.close()
+                del self._questions[full_name]
+            else:
+                question.ask()
+
+
+class _Question:
+    """Asks one node what parameters it has, and then for their values."""
+
+    def __init__(self, node: Node, full_name: str) -> None:
+        self._node = node
+        self._lister = node.create_client(ListParameters, f'{full_name}/list_parameters')
+        self._getter = node.create_client(GetParameters, f'{full_name}/get_parameters')
+        self._looks = 0
+        self._asked: list[tuple[Client, Future]] = []
+        self.answer: dict[str, Any] | None = None
+
+    def ask(self) -> None:
+        """Ask as soon as there is somebody to answer, and again if no answer comes.
+
+        The node may have heard of the question before it has heard of who reads the answer, which
+        is lost then.
+        """
+        if not (self._lister.service_is_ready() and self._getter.service_is_ready()):
+            return
+        if self._looks % ASK_AGAIN == 0:
+            for client, future in self._asked:
+                client.remove_pending_request(future)
+            self._asked = []
+            self._call(self._lister, ListParameters.Request(), self._on_names)
+        self._looks += 1
+
+    def _call(self, client: Client, request: Any, answered: Callable[[Future], None]) -> None:
+        future = client.call_async(request)
+        self._asked.append((client, future))
+        future.add_done_callback(answered)
+
+    def close(self) -> None:
+        """Ask no more."""
+        self._node.destroy_client(self._lister)
+        self._node.destroy_client(self._getter)
+
+    def _on_names(self, future: Future) -> None:
+        names = future.result().result.names
+        request = GetParameters.Request(names=names)
+        self._call(self._getter, request, partial(self._on_values, names))
+
+    def _on_values(self, names: list[str], future: Future) -> None:
+        values = map(parameter_value_to_python, future.result().values)
+        self.answer = dict(zip(names, values, strict=True))

@@ -1,0 +1,343 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""Record topics of a running ROS graph into a bag."""
+
+import struct
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+
+from rclpy.callback_groups import CallbackGroup
+from rclpy.clock import Clock, ClockType
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.subscription import Subscription
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
+from rosgraph_msgs.msg import Clock as ClockMessage
+
+from tactile_push.bags.writer import FLUSH_PERIOD, BagWriter
+from tactile_push.recording.simulated_time import SimulatedTime
+
+_TAKE_PERIOD = 0.02  # between looks for messages [s]
+_SEARCH_PERIOD = 0.1  # between looks for new topics, as of rosbag2 [s]
+_WATCH_LOOKS = 10  # of these between two at the publishers of the topics that are recorded
+
+# Messages of a topic that may wait while the process is kept from running: a second's at the rate
+# that must not lose any.
+_DEPTH = 5000
+
+_CLOCK = '/clock'
+
+
+class _TakenFrom(CallbackGroup):
+    """Keeps subscriptions from the executor, which needs too long for each message."""
+
+    def can_execute(self, entity: object) -> bool:
+        return False
+
+    def beginning_execution(self, entity: object) -> bool:
+        return False
+
+    def ending_execution(self, entity: object) -> None:
+        pass
+
+
+@dataclass(frozen=True, slots=True)
+class _Taken:
+    """A message and the middleware's stamps on it [ns]."""
+
+    topic: str
+    data: bytes
+    received: int
+    sent: int
+    latched: bool
+
+
+class Recorder:
+    """Subscriptions whose messages go undecoded into a bag.
+
+    A topic is subscribed to as soon as it has a publisher. Its type hash and offered quality of
+    service are those of the publishers that it has at that moment; the subscription asks for what
+    all of them offer, and for less when one comes that offers less.
+
+    A message gets the times that rosbag2 gives it (rosbag2_transport/src/rosbag2_transport/
+    recorder.cpp, create_subscription): received and sent, as the middleware stamped it. If the
+    node uses simulated time, the former is what ``/clock`` said when it was received, and nothing
+    is recorded until that runs but what is latched, at its first tick.
+
+    A topic whose type is not installed, or another type than the one that is recorded, is
+    reported once.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+        Node that subscribes, spun by the caller. If the bag cannot be written, OSError is raised
+        there.
+    topics : sequence of str or None
+        Topics to record, expanded and remapped like all names of the node; None for all that are
+        not hidden.
+    writer : BagWriter
+        Bag to write to. The caller closes it, after `stop`.
+
+    Attributes
+    ----------
+    counts : dict of str to int
+        Messages written so far, by full topic name.
+    """
+
+    def __init__(self, node: Node, topics: Sequence[str] | None, writer: BagWriter) -> None:
+        self._node = node
+        self._writer = writer
+        self._everything = topics is None
+        self.counts = {node.resolve_topic_name(topic): 0 for topic in topics or ()}
+        self._subscriptions: dict[str, Subscription] = {}
+        self._types: dict[str, str] = {}
+        self._refused: set[tuple[str, str]] = set()
+        self._looks = 0
+        self._group = _TakenFrom()
+        self._simulated: SimulatedTime | None = None
+        if node.get_clock().ros_time_is_active:
+            node.get_logger().info('waiting for /clock')
+            profile = QoSProfile(depth=_DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
+            self._clock_subscription = self._subscribe(_CLOCK, ClockMessage, profile)
+            self._simulated = SimulatedTime()
+        # Simulated time may stand still or not run yet.
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timers = [
+            node.create_timer(_TAKE_PERIOD, self._take, clock=steady),
+            node.create_timer(_SEARCH_PERIOD, self._look_at_graph, clock=steady),
+            # The writer flushes only while it is written to; the topics may fall silent.
+            node.create_timer(FLUSH_PERIOD, writer.flush, clock=steady),
+        ]
+        self._look_at_graph()
+
+    def missing(self) -> list[str]:
+        """Return the full names of the topics that are not subscribed to yet."""
+        return [topic for topic in self.counts if topic not in self._subscriptions]
+
+    def stop(self) -> None:
+        """Record what has been received, and nothing more; further calls do nothing."""
+        for timer in self._timers:
+            self._node.destroy_timer(timer)
+        try:
+            self._take()
+        finally:
+            for subscription in self._subscriptions.values():
+                self._node.destroy_subscription(subscription)
+            self._subscriptions.clear()
+            if self._simulated is not None:
+                self._node.destroy_subscription(self._clock_subscription)
+                self._simulated = None
+
+    def _look_at_graph(self) -> None:
+        watch = self._looks % _WATCH_LOOKS == 0
+        self._looks += 1
+        for topic, types in self._node.get_topic_names_and_types():
+            if not (
+                topic in self.counts or (self._everything and not topic_or_service_is_hidden(topic))
+            ):
+                continue
+            if topic in self._subscriptions:
+                if not watch:
+                    continue
+            elif all((topic, type_name) in self._refused for type_name in types):
+                continue
+            if publishers := self._node.get_publishers_info_by_topic(topic):
+                self._adapt(topic, publishers)
+
+    def _adapt(self, topic: str, publishers: list[TopicEndpointInfo]) -> None:
+        """Subscribe as the publishers of a topic ask for."""
+        for publisher in publishers:
+            self._judge(topic, publisher.topic_type)
+        if topic not in self._types:
+            return
+        ours = [entry for entry in publishers if entry.topic_type == self._types[topic]]
+        if not ours:
+            return
+        profile = compatible_profile(ours)
+        subscription = self._subscriptions.get(topic)
+        if subscription is None:
+            self._add_topic(topic, ours)
+        elif _demands_more(subscription.qos_profile, profile):
+            # A publisher has come that offers less than the others.
+            self._take()
+            self._node.destroy_subscription(subscription)
+        else:
+            return
+        type_ = message_class(self._types[topic])
+        self._subscriptions[topic] = self._subscribe(topic, type_, profile)
+
+    def _judge(self, topic: str, type_name: str) -> None:
+        """Decide on the type of a topic, and say which types of it are not recorded."""
+        if self._types.get(topic) == type_name or (topic, type_name) in self._refused:
+            return
+        reason = ''
+        if topic in self._types:
+            reason = f'its other type, {self._types[topic]}, is recorded'
+        else:
+            try:
+                message_class(type_name)
+            except LookupError as error:
+                reason = str(error)
+        if reason:
+            self._refused.add((topic, type_name))
+            self._node.get_logger().error(f'cannot record {topic} as {type_name}: {reason}')
+        else:
+            self._types[topic] = type_name
+
+    def _add_topic(self, topic: str, publishers: list[TopicEndpointInfo]) -> None:
+        type_name = self._types[topic]
+        self._writer.add_topic(
+            topic,
+            type_name,
+            qos=[qos_entry(publisher.qos_profile) for publisher in publishers],
+            type_hash=common_type_hash(publishers),
+        )
+        self.counts.setdefault(topic, 0)
+        self._node.get_logger().info(f'recording {topic} ({type_name})')
+
+    def _subscribe(self, topic: str, type_: type, profile: QoSProfile) -> Subscription:
+        return self._node.create_subscription(
+            type_,
+            topic,
+            lambda data: None,  # never called
+            profile,
+            callback_group=self._group,
+            raw=True,
+        )
+
+    def _take(self) -> None:
+        """Write what has been received, in the order in which it was."""
+        waiting = self._simulated is not None and not self._simulated.running
+        taken = [
+            message
+            for topic, subscription in self._subscriptions.items()
+            if not (waiting and _is_latched(subscription))
+            for message in _take_all(topic, subscription)
+        ]
+        if self._simulated is not None:
+            for tick in _take_all(_CLOCK, self._clock_subscription):
+                self._simulated.tick(tick.received, _clock_time(tick.data))
+        for message in sorted(taken, key=lambda message: message.received):
+            log_time = self._log_time(message)
+            if log_time is not None:
+                self._writer.write(message.topic, message.data, log_time, message.sent)
+                self.counts[message.topic] += 1
+
+    def _log_time(self, message: _Taken) -> int | None:
+        if self._simulated is None:
+            return message.received
+        if message.topic == _CLOCK and (tick := _clock_time(message.data)):
+            return tick  # even if it came a moment before its twin
+        return self._simulated.at(message.received, latched=message.latched)
+
+
+def _take_all(topic: str, subscription: Subscription) -> Iterator[_Taken]:
+    """Take what waits in a subscription, but not for ever."""
+    latched = _is_latched(subscription)
+    handle = subscription.handle
+    with handle:
+        for _ in range(_DEPTH):
+            taken = handle.take_message(subscription.msg_type, True)
+            if taken is None:
+                return
+            data, stamps = taken
+            received, sent = stamps['received_timestamp'], stamps['source_timestamp']
+            yield _Taken(topic, data, received, sent, latched)
+
+
+def _clock_time(data: bytes) -> int:
+    """Give the time in a rosgraph_msgs/Clock [ns]."""
+    sec, nanosec = struct.unpack_from('<iI' if data[1] & 1 else '>iI', data, 4)
+    return sec * 10**9 + nanosec
+
+
+def _is_latched(subscription: Subscription) -> bool:
+    return subscription.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
+
+
+def message_class(type_name: str) -> type:
+    """Return the Python class of a message type.
+
+    Parameters
+    ----------
+    type_name : str
+        For example ``'sensor_msgs/msg/JointState'``.
+
+    Raises
+    ------
+    LookupError
+        If the class is not installed.
+    """
+    package, *_, name = type_name.split('/')
+    try:
+        return getattr(import_module(f'{package}.msg'), name)
+    except (ImportError, AttributeError):
+        raise LookupError(f'the message type {type_name} is not installed') from None
+
+
+def compatible_profile(publishers: Sequence[TopicEndpointInfo]) -> QoSProfile:
+    """Return the most demanding quality of service that all publishers of a topic offer.
+
+    Parameters
+    ----------
+    publishers : sequence of TopicEndpointInfo
+        What the graph tells about the publishers.
+    """
+    offers = [publisher.qos_profile for publisher in publishers]
+    reliable = all(offer.reliability == ReliabilityPolicy.RELIABLE for offer in offers)
+    latched = all(offer.durability == DurabilityPolicy.TRANSIENT_LOCAL for offer in offers)
+    return QoSProfile(
+        depth=_DEPTH,
+        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+    )
+
+
+def _demands_more(ours: QoSProfile, offered: QoSProfile) -> bool:
+    """Return whether a subscription demands what not all publishers offer any more."""
+    reliable, latched = ReliabilityPolicy.RELIABLE, DurabilityPolicy.TRANSIENT_LOCAL
+    return (ours.reliability == reliable and offered.reliability != reliable) or (
+        ours.durability == latched and offered.durability != latched
+    )
+
+
+def qos_entry(profile: QoSProfile) -> dict[str, object]:
+    """Return a quality of service with the keys and words of a bag's metadata.
+
+    Parameters
+    ----------
+    profile : rclpy.qos.QoSProfile
+        For example that of a publisher, as the graph tells it.
+    """
+    return {
+        'history': profile.history.short_key,
+        'depth': profile.depth,
+        'reliability': profile.reliability.short_key,
+        'durability': profile.durability.short_key,
+        'deadline': _duration_entry(profile.deadline),
+        'lifespan': _duration_entry(profile.lifespan),
+        'liveliness': profile.liveliness.short_key,
+        'liveliness_lease_duration': _duration_entry(profile.liveliness_lease_duration),
+        'avoid_ros_namespace_conventions': profile.avoid_ros_namespace_conventions,
+    }
+
+
+def common_type_hash(publishers: Sequence[TopicEndpointInfo]) -> str:
+    """Return the hash of the message type on which all publishers agree that know one, or ''.
+
+    Parameters
+    ----------
+    publishers : sequence of TopicEndpointInfo
+        What the graph tells about the publishers of a topic.
+    """
+    known = [publisher.topic_type_hash for publisher in publishers]
+    hashes = {str(type_hash) for type_hash in known if type_hash.version > 0}
+    return hashes.pop() if len(hashes) == 1 else ''
+
+
+def _duration_entry(duration: Duration) -> dict[str, int]:
+    sec, nsec = divmod(duration.nanoseconds, 10**9)
+    return {'sec': sec, 'nsec': nsec}

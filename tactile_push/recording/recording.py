@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the nodes have in common that record."""
+
+import json
+from collections.abc import Sequence
+from contextlib import ExitStack
+from importlib.metadata import version
+from typing import Any
+
+from rclpy.node import Node
+
+from tactile_push.bags import BagWriter
+from tactile_push.recording.parameter_notes import ParameterNotes
+from tactile_push.recording.recorder import Recorder
+
+TOPICS = (
+    'tactile',
+    'joint_states',
+    'contact',
+    'contact_geometry/state',
+    'finger/cmd_vel',
+    'push_controller/state',
+    'object_pose',
+    'active_sensing/state',
+    'ground_truth/object_pose',
+    'ground_truth/state',
+    '/clock',
+    '/diagnostics',
+    '/parameter_events',
+)
+
+
+class Recording:
+    """Records topics, with the software's version and the parameters of the package's nodes.
+
+    Parameters
+    ----------
+    node : Node
+        The node that records.
+    topics : sequence of str or None
+        Topics; None for all.
+    writer : BagWriter
+        Bag to record into, closed here.
+
+    Attributes
+    ----------
+    recorder : Recorder
+        What the topics are recorded with.
+    """
+
+    def __init__(self, node: Node, topics: Sequence[str] | None, writer: BagWriter) -> None:
+        self._writer = writer
+        writer.note('tactile_push.version', version('tactile_push'))
+        self.recorder = Recorder(node, topics, writer)
+        ParameterNotes(node, self._note_parameters)
+
+    def close(self) -> None:
+        """Record what has been received, and finish the bag."""
+        with ExitStack() as stack:
+            stack.callback(self._writer.close)
+            self.recorder.stop()
+
+    def _note_parameters(self, parameters: dict[str, dict[str, Any]]) -> None:
+        # Values that JSON does not have are arrays, and infinite as Python writes them.
+        text = json.dumps(parameters, default=list)
+        self._writer.note('tactile_push.parameters', text)

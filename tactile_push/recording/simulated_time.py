@@ -1,0 +1,64 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a simulated clock said when something was received."""
+
+import math
+from bisect import bisect_right
+
+_TICKS = 1000  # that are remembered
+
+
+class SimulatedTime:
+    """The latest ticks of a simulated clock, and when they were received.
+
+    Messages and ticks come by different ways: which of two was there first is known from the
+    middleware's stamps alone.
+    """
+
+    def __init__(self) -> None:
+        self._since: float = math.inf
+        self._ticks: list[tuple[int, int]] = []
+
+    @property
+    def running(self) -> bool:
+        """Whether the clock runs; as for rcl, time 0 is before its start."""
+        return bool(self._ticks)
+
+    def tick(self, received: int, time: int) -> None:
+        """Hear what the clock says.
+
+        Parameters
+        ----------
+        received : int
+            When the tick was received, by the system's clock [ns].
+        time : int
+            What it says [ns].
+        """
+        if self._ticks and received < self._ticks[-1][0]:
+            # The system's clock was set back.
+            self._ticks.clear()
+            self._since = 0
+        if time or self._ticks:
+            self._since = min(self._since, received)
+            self._ticks.append((received, time))
+            del self._ticks[:-_TICKS]
+
+    def at(self, received: int, *, latched: bool) -> int | None:
+        """Give the simulated time at which a message was received.
+
+        Parameters
+        ----------
+        received : int
+            The same by the system's clock [ns].
+        latched : bool
+            Whether the message is still there when the clock starts.
+
+        Returns
+        -------
+        int or None
+            Simulated time [ns]; None if the message was there and gone before the clock ran.
+        """
+        if not self._ticks or (received < self._since and not latched):
+            return None
+        following = bisect_right(self._ticks, (received, math.inf))
+        return self._ticks[max(following - 1, 0)][1]

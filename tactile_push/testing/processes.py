@@ -1,0 +1,203 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""The package's nodes as processes, in a ROS domain of their own that ends at this machine."""
+
+import fcntl
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import IO, Any
+
+from tactile_push.parameters import config_file
+
+DOMAINS = range(1, 101)  # ids that need no port among the ephemeral ones
+STOP_TIMEOUT = 5.0  # for all processes to end after SIGINT before the rest is killed [s]
+
+
+class NodeProcesses:
+    """Starts nodes and, on leaving the `with` block, stops all of them.
+
+    The nodes talk among themselves alone: discovery stays on this machine, and no two of these
+    objects share a ROS domain, whichever processes they live in.
+
+    Parameters
+    ----------
+    folder : path
+        Where each node's output goes, as NAME.log, and rcl's own logs.
+
+    Attributes
+    ----------
+    environment : dict of str to str
+        Environment of every process.
+    running : dict of str to subprocess.Popen
+        The processes by name.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._domain, self._lock = claim_domain()
+        self.environment = {
+            **os.environ,
+            'ROS_DOMAIN_ID': str(self._domain),
+            **loopback(),
+            'ROS_LOG_DIR': str(folder / 'ros_log'),
+        }
+        self.running: dict[str, subprocess.Popen[bytes]] = {}
+
+    def __enter__(self) -> 'NodeProcesses':
+        """Enter the block after which the processes end."""
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        """Stop all processes."""
+        self.stop()
+
+    @property
+    def domain(self) -> int:
+        """ROS domain of the nodes."""
+        return self._domain
+
+    def start(
+        self,
+        node: str,
+        parameters: Mapping[str, Any] | None = None,
+        *,
+        config: Path | None = None,
+        name: str | None = None,
+        arguments: tuple[str, ...] = (),
+    ) -> subprocess.Popen[bytes]:
+        """Start a node.
+
+        Parameters
+        ----------
+        node : str
+            One of the package's nodes.
+        parameters : mapping of str to object, optional
+            Values of its parameters; they take precedence over the file's.
+        config : path, optional
+            Parameter file.
+        name : str, optional
+            What the process is called here, if `node` runs more than once.
+        arguments : tuple of str, optional
+            More ROS arguments.
+
+        Returns
+        -------
+        subprocess.Popen
+            The process.
+        """
+        command = [sys.executable, '-m', f'tactile_push.nodes.{node}', '--ros-args', *arguments]
+        if config is not None:
+            command += ['--params-file', str(config)]
+        for key, value in (parameters or {}).items():
+            command += ['-p', f'{key}:={yaml_value(value)}']
+        name = name or node
+        with self.log(name).open('ab') as log:
+            process = self._spawn(command, log)
+        self.running[name] = process
+        return process
+
+    def log(self, name: str) -> Path:
+        """Give the file that holds what a process has said."""
+        return self._folder / f'{name}.log'
+
+    def stop(self) -> None:
+        """Interrupt all processes and wait for their end."""
+        for process in self.running.values():
+            if process.poll() is None:
+                process.send_signal(signal.SIGINT)
+        deadline = time.monotonic() + STOP_TIMEOUT
+        for process in self.running.values():
+            try:
+                process.wait(max(0.0, deadline - time.monotonic()))
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+        self._lock.close()
+
+    def _spawn(self, command: list[str], log: IO[bytes]) -> subprocess.Popen[bytes]:
+        # A session of their own: Ctrl-C at the terminal is for the parent, which stops them.
+        return subprocess.Popen(
+            command,
+            env=self.environment,
+            stdin=subprocess.DEVNULL,
+            stdout=log,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
+
+
+def loopback() -> dict[str, str]:
+    """Give the environment in which ROS nodes talk on this machine alone.
+
+    Fast DDS's shared memory, which the discovery range LOCALHOST always brings, is not used:
+    whoever joins a domain can hold up everybody's publishing there for a third of a second.
+
+    Returns
+    -------
+    dict of str to str
+        Variables to set before a process makes its first node.
+    """
+    if not os.environ.get('RMW_IMPLEMENTATION', 'rmw_fastrtps_cpp').startswith('rmw_fastrtps'):
+        return {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'}
+    return {
+        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SYSTEM_DEFAULT',  # as the profile has it
+        'FASTRTPS_DEFAULT_PROFILES_FILE': str(config_file('loopback.xml')),
+    }
+
+
+def yaml_value(value: Any) -> str:
+    """Write a parameter's value as the command line takes it.
+
+    Parameters
+    ----------
+    value : bool, int, float, str or list of str
+        The value.
+
+    Returns
+    -------
+    str
+        YAML on one line.
+    """
+    if isinstance(value, bool):
+        return 'true' if value else 'false'
+    if isinstance(value, float):
+        text = repr(value)
+        return {'inf': '.inf', '-inf': '-.inf', 'nan': '.nan'}.get(text, text)
+    if isinstance(value, str | list):
+        return json.dumps(value)  # which YAML reads as it is
+    return str(value)
+
+
+def claim_domain() -> tuple[int, IO[bytes]]:
+    """Find a ROS domain that nobody on this machine uses through this function.
+
+    Returns
+    -------
+    domain : int
+        Its id.
+    lock : file
+        Keeps it so until it is closed.
+
+    Raises
+    ------
+    RuntimeError
+        If there is none.
+    """
+    for domain in random.sample(DOMAINS, len(DOMAINS)):
+        path = Path(tempfile.gettempdir()) / f'tactile_push_domain_{domain}.{os.getuid()}.lock'
+        lock = path.open('wb')
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            lock.close()
+            continue
+        return domain, lock
+    raise RuntimeError('all ROS domains are in use')

@@ -1,0 +1,286 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""One finger with its belt, sensor and nodes, and what they say."""
+
+import math
+import signal
+import time
+from pathlib import Path
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PoseStamped, TwistStamped
+from lifecycle_msgs.msg import State
+from rcl_interfaces.msg import ParameterType, ParameterValue
+from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
+
+from tactile_push.control import PUSHING, STATES, STOP_REASONS
+from tactile_push.testing.processes import NodeProcesses
+
+from .messages import field, stamp_of
+from .observer import Heard, Observer
+from .promise import BrokenPromiseError, Setup
+from .proxy import DeviceProxy, free_port
+from .relay import JointRelay
+
+CONFIG = Path(__file__).resolve().parents[2] / 'config' / 'block.yaml'
+CHAIN = ('sim_plant', 'sensor_driver', 'contact_geometry', 'push_controller')
+DESIRED = math.radians(10.0)  # to both sides in turn, so that the finger stays where it can
+MOVING = 5e-5  # [m/s]
+MOST_THETA = math.radians(25.0)
+MOST_D = 0.01  # [m]
+HOLD = 0.3  # for so long a stopped finger has to stay stopped before it counts [s]
+
+
+class Finger:
+    """The nodes of one finger and what is heard of them.
+
+    Parameters
+    ----------
+    namespace : str
+        Namespace of its nodes, '' for the root.
+    setup : Setup
+        What is special about the rig.
+    nodes : NodeProcesses
+        Starts them.
+    observer : Observer
+        Hears them.
+
+    Attributes
+    ----------
+    proxy : DeviceProxy
+        The device that the driver reads.
+    relay : JointRelay or None
+        What the joint states pass through, if the setup asks for it.
+    foreign : set of (int, int)
+        Stamps of the messages that the tool itself has published.
+    commands, truth, states, contacts, tactile, diagnostics : list of Heard
+        What was heard so far.
+    """
+
+    def __init__(
+        self, namespace: str, setup: Setup, nodes: NodeProcesses, observer: Observer
+    ) -> None:
+        self.namespace = namespace
+        self.nodes = nodes
+        self.observer = observer
+        self._setup = setup
+        self._port = free_port()
+        self.proxy = DeviceProxy(self._port)
+        self.relay = JointRelay(observer, namespace) if setup.relay_joints else None
+        self.foreign: set[tuple[int, int]] = set()
+        self._desired = -DESIRED
+        self.commands = observer.hear(TwistStamped, self.name('finger/cmd_vel'))
+        self.truth = observer.hear(JointState, self.name('ground_truth/state'))
+        self.states = observer.hear(JointState, self.name('push_controller/state'))
+        self.contacts = observer.hear(PoseStamped, self.name('contact'))
+        self.tactile = observer.hear(JointState, self.name('tactile'))
+        self.diagnostics = observer.hear(DiagnosticArray, '/diagnostics')
+
+    def name(self, name: str) -> str:
+        """Give the full name of a node, topic or service of this finger."""
+        return f'/{self.namespace}/{name}' if self.namespace else f'/{name}'
+
+    def process(self, node: str) -> str:
+        """Give the name of a node's process."""
+        return f'{self.namespace}.{node}' if self.namespace else node
+
+    def start(self, node: str) -> None:
+        """Start one of its nodes."""
+        parameters: dict[str, Any] = {'use_sim_time': True} if self._setup.own_clock else {}
+        arguments: tuple[str, ...] = ()
+        if self.namespace:
+            arguments += ('-r', f'__ns:=/{self.namespace}')
+        if node == 'sim_plant':
+            # Balanced, so that an object that is not controlled for a while stays in reach.
+            parameters |= {'theta_initial': 0.0, 'd_initial': 0.0}
+            parameters['device'] = f'socket://127.0.0.1:{self._port}'
+            if self.relay is not None:
+                arguments += ('-r', f'joint_states:={self.relay.source}')
+        elif node == 'sensor_driver':
+            parameters['device'] = self.proxy.url
+        elif node == 'push_controller':
+            parameters['autostart'] = False
+            parameters |= dict(self._setup.controller)
+        self.nodes.start(
+            node, parameters, config=CONFIG, name=self.process(node), arguments=arguments
+        )
+
+    def activate(self) -> None:
+        """Activate the controller once its commands will be heard here."""
+        self._desired = -DESIRED  # as the configuration has it
+        observer, controller = self.observer, self.name('push_controller')
+        before = observer.publishers(self.name('finger/cmd_vel'))
+        observer.reach_state(controller, State.PRIMARY_STATE_INACTIVE)
+        observer.wait_for(
+            lambda: observer.publishers(self.name('finger/cmd_vel')) - before,
+            f'{controller} to be heard',
+        )
+        observer.reach_state(controller, State.PRIMARY_STATE_ACTIVE)
+
+    def signal(self, node: str, number: signal.Signals) -> float:
+        """Send a signal to a node and give the moment [s]."""
+        at = time.monotonic()
+        self.nodes.running[self.process(node)].send_signal(number)
+        return at
+
+    def kill(self, node: str) -> float:
+        """Kill a node, as a crash would, and give the moment [s]."""
+        at = self.signal(node, signal.SIGKILL)
+        self.nodes.running.pop(self.process(node)).wait()
+        return at
+
+    def ended(self, node: str, patience: float = 5.0) -> int:
+        """Wait for the end of a node and give its exit status."""
+        process = self.nodes.running.pop(self.process(node))
+        self.observer.wait_for(lambda: process.poll() is not None, f'{node} to end', patience)
+        return int(process.returncode)
+
+    def turn(self) -> None:
+        """Ask for the other angle, so that the finger has to move."""
+        self._desired = -self._desired
+        self.ask_for(self._desired)
+
+    def ask_for(self, theta: float) -> None:
+        """Ask for an angle of the edge [rad]."""
+        value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=theta)
+        answer = self.observer.set_parameter(self.name('push_controller'), 'theta_desired', value)
+        if not answer.successful:
+            raise BrokenPromiseError(f'theta_desired was refused: {answer.reason}')
+
+    def push(self, patience: float = 5.0) -> None:
+        """Wait until the finger moves, to the side to which it has to turn the object."""
+        self.turn()
+        self.wait_until_moving(patience)
+
+    def is_in_the_middle(self) -> bool:
+        """Tell whether the object lies so that the finger can go on for long."""
+        last = self.truth[-1].message
+        return abs(field(last, 'theta')) < MOST_THETA and abs(field(last, 'd')) < MOST_D
+
+    def wait_until_moving(self, patience: float = 5.0) -> float:
+        """Wait until the law acts and the finger moves, and give the moment [s]."""
+        seen = len(self.truth)
+
+        def moving() -> bool:
+            last = [field(heard.message, 'v_x') for heard in self.truth[seen:][-5:]]
+            return self.state() == PUSHING and len(last) == 5 and min(map(abs, last)) > MOVING
+
+        self.observer.wait_for(moving, f'{self.name("finger")} to move', patience)
+        return self.truth[-1].at
+
+    def stopped(
+        self, since: float, patience: float = 3.0, *, hold: float = HOLD, command: bool = False
+    ) -> float:
+        """Wait until the finger stands and stays so for `hold`, and give how long it took [s].
+
+        `command` looks at what is commanded, for when there is no plant any more.
+        """
+
+        def first_of_last_zeros() -> float | None:
+            first = None
+            for at, v_x in reversed(list(self._velocities(command))):
+                if v_x != 0.0 or at < since:
+                    break
+                first = at
+            return first
+
+        def stands() -> bool:
+            first = first_of_last_zeros()
+            return first is not None and time.monotonic() - first >= hold
+
+        self.observer.wait_for(stands, f'{self.name("finger")} to stop', patience)
+        first = first_of_last_zeros()
+        assert first is not None
+        return first - since
+
+    def _velocities(self, command: bool) -> list[tuple[float, float]]:
+        if command:
+            return [(h.at, h.message.twist.linear.x) for h in self.commands[-100:]]
+        return [(h.at, field(h.message, 'v_x')) for h in self.truth[-500:]]
+
+    def state(self) -> str:
+        """Give the controller's last state."""
+        if not self.states:
+            return ''
+        return str(STATES[int(field(self.states[-1].message, 'state'))])
+
+    def reason(self) -> str:
+        """Give why the controller has stopped."""
+        number = field(self.states[-1].message, 'stop_reason')
+        return STOP_REASONS[int(number)]
+
+    def reasons_since(self, at: float) -> set[str]:
+        """Give all reasons that the controller gave after a moment, '' for none."""
+        return {STOP_REASONS[int(field(m, 'stop_reason'))] for m in self.after(self.states, at)}
+
+    def expect_reason(self, *reasons: str) -> None:
+        """Wait for the controller to say why it has stopped."""
+        self.observer.wait_for(
+            lambda: self.reason() in reasons,
+            f'reason {" or ".join(reasons)}, it was {self.reason()}',
+            1.0,
+        )
+
+    def expect_rest(self, reason: str, seconds: float = 0.6) -> None:
+        """Watch that the controller does not resume on its own, though contacts come again."""
+        said = len(self.commands)
+        self.observer.spin(seconds)
+        moving = [h for h in self.commands[said:] if h.message.twist.linear.x != 0.0]
+        if moving or self.reason() != reason:
+            raise BrokenPromiseError(f'resumed on its own from {reason}')
+
+    def resume(self) -> None:
+        """Call the service that lets a stopped controller go on, and wait until it does."""
+        answer = self.observer.call(
+            Trigger, self.name('push_controller/resume'), Trigger.Request(), patience=3.0
+        )
+        if not answer.success:
+            raise BrokenPromiseError(f'resume: {answer.message}')
+        self.wait_until_moving()
+
+    def rest_or_push(self) -> None:
+        """Wait until the controller pushes, or has stopped and says why."""
+        self.observer.wait_for(
+            lambda: self.state() == PUSHING or self.reason() in STOP_REASONS[1:],
+            f'the controller to push or to say why not, it is {self.state()}',
+            5.0,
+        )
+
+    def status(self, node: str) -> Any:
+        """Give the last diagnostic status of a node, None if it has said nothing."""
+        name = self.name(node).lstrip('/')
+        for heard in reversed(self.diagnostics):
+            for status in heard.message.status:
+                if status.name == name:
+                    return status
+        return None
+
+    def expect_level(self, node: str, level: bytes, patience: float = 2.0) -> None:
+        """Wait for a node to report a level."""
+
+        def has_level() -> bool:
+            status = self.status(node)
+            return status is not None and status.level == level
+
+        self.observer.wait_for(has_level, f'{node} to report level {level[0]}', patience)
+
+    def count(self, node: str, name: str) -> int:
+        """Give a count of a node's diagnostics, 0 if it does not come up."""
+        status = self.status(node)
+        values = {v.key: v.value for v in status.values} if status is not None else {}
+        return int(values.get(name, 0))
+
+    def publish(self, topic: str, message: Any) -> float:
+        """Publish what is no node's message on one of its topics, and give the moment [s]."""
+        self.foreign.add(stamp_of(message))
+        return self.observer.publish(self.name(topic), message)
+
+    def after(self, heard: list[Heard[Any]], at: float) -> list[Any]:
+        """Give what was heard after a moment."""
+        return [h.message for h in heard if h.at > at]
+
+    def close(self) -> None:
+        """Take the device away."""
+        self.proxy.close()

@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a row of the table is: a fault, what is promised, what was measured, held or broken."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .rig import Rig
+
+# How long the finger may go on after a fault [s].
+SILENT = 0.45  # contact_timeout, one control period, the way of the last reading and the command
+ONE_PERIOD = 0.2  # a control period, the way of the command, a period of the plant
+COMMAND_LOST = 0.6  # command_timeout of the plant, a period of its sensor, the way of the state
+SIGNAL = 0.2
+
+
+class BrokenPromiseError(Exception):
+    """Something did not happen that was promised, or did that must not; the message says what."""
+
+
+@dataclass(frozen=True)
+class Setup:
+    """The rig that a fault needs.
+
+    Parameters
+    ----------
+    fingers : tuple of str
+        Namespace of each finger with its plant; '' is the root. None: only nodes without a rig.
+    relay_joints : bool, optional
+        Whether the joint states pass through the tool, which can spoil them.
+    own_clock : bool, optional
+        Whether the tool publishes /clock and all nodes live by it.
+    controller : tuple of (str, object), optional
+        More parameters of `push_controller`.
+    """
+
+    fingers: tuple[str, ...] = ('',)
+    relay_joints: bool = False
+    own_clock: bool = False
+    controller: tuple[tuple[str, Any], ...] = ()
+
+
+PLAIN = Setup()
+NO_RIG = Setup(fingers=())
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A row to be measured.
+
+    Parameters
+    ----------
+    name : str
+        The fault in a few words.
+    promise : str
+        What is promised.
+    inject : callable
+        Does it to a running rig; raises `BrokenPromiseError` if a promise is broken. The rig
+        keeps the reaction that it measured.
+    within : float or None
+        Bound on the reaction [s]; None if the finger need not stop.
+    setup : Setup
+        The rig that it needs.
+    last : bool
+        Whether nothing can be done with the rig afterwards.
+    """
+
+    name: str
+    promise: str
+    inject: Callable[['Rig'], None]
+    within: float | None = None
+    setup: Setup = PLAIN
+    last: bool = False
+
+
+@dataclass
+class Outcome:
+    """A row as measured.
+
+    Parameters
+    ----------
+    fault, promise : str
+        What was done and promised.
+    within_ms, reaction_ms : float or None
+        Promised and measured time from the fault to v_x = 0 [ms].
+    broken : list of str
+        What was not as promised; empty if all was.
+    """
+
+    fault: str
+    promise: str
+    within_ms: float | None
+    reaction_ms: float | None
+    broken: list[str] = field(default_factory=list)
+
+    @property
+    def held(self) -> bool:
+        """Whether the promise was held."""
+        return not self.broken
+
+    @property
+    def verdict(self) -> str:
+        """'held' or 'BROKEN'."""
+        return 'held' if self.held else 'BROKEN'
+
+    def judge(self) -> None:
+        """Compare the reaction with its bound."""
+        if self.within_ms is None:
+            return
+        if self.reaction_ms is None:
+            self.broken.append('no reaction was measured')
+        elif self.reaction_ms > self.within_ms:
+            self.broken.append(f'{self.reaction_ms:.0f} ms, more than {self.within_ms:.0f} ms')
+
+
+FAULTS: list[Fault] = []  # in the order of the table
+
+
+def fault(
+    name: str,
+    within: float | None = None,
+    *,
+    setup: Setup = PLAIN,
+    last: bool = False,
+) -> Callable[[Callable[['Rig'], None]], Callable[['Rig'], None]]:
+    """Make a row of a function that injects a fault, its docstring the promise; see `Fault`."""
+
+    def add(inject: Callable[['Rig'], None]) -> Callable[['Rig'], None]:
+        promise = ' '.join((inject.__doc__ or '').split()).removesuffix('.')
+        FAULTS.append(Fault(name, promise, inject, within, setup, last))
+        return inject
+
+    return add

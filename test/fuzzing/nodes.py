@@ -1,0 +1,96 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""Messages at their extremes, to the real nodes."""
+
+import copy
+import math
+import time
+from collections.abc import Callable
+from typing import Any
+
+from geometry_msgs.msg import TwistStamped
+from sensor_msgs.msg import JointState
+
+from faults.messages import field
+from faults.rig import Rig
+from tactile_push.control import HELD
+
+from .chain import FuzzError
+from .messages import extremes
+
+PAUSE = 0.005  # between messages [s]
+CLOSE_LOOK = 10  # messages between two looks at what the nodes said
+
+
+def send_extremes(rig: Rig, progress: Callable[[str], None] = lambda what: None) -> int:
+    """Send every message that the nodes hear with every field at its extremes.
+
+    Parameters
+    ----------
+    rig : Rig
+        A running rig.
+    progress : callable, optional
+        Told what is being sent.
+
+    Returns
+    -------
+    int
+        How many messages were sent.
+
+    Raises
+    ------
+    FuzzError
+        If a node said or did what it must not.
+    BrokenPromiseError
+        If the finger does not push afterwards.
+    """
+    finger = rig.finger
+    joints = rig.observer.hear(JointState, finger.name('joint_states'))
+    finger.push()
+    rig.observer.wait_for(lambda: joints, 'joint states')
+    finger.nodes.start('active_sensing', {})
+    state = finger.name('push_controller/state')
+    rig.observer.wait_for(
+        lambda: rig.observer.node.count_subscribers(state) > 1, 'active_sensing to listen'
+    )
+    topics: dict[str, Any] = {
+        'contact': finger.contacts[-1].message,
+        'tactile': finger.tactile[-1].message,
+        'joint_states': joints[-1].message,
+        'push_controller/state': finger.states[-1].message,
+        'finger/cmd_vel': TwistStamped(),
+    }
+    sent = 0
+    for topic, valid in topics.items():
+        for what, message in extremes(valid):
+            progress(f'{topic}: {what}')
+            finger.publish(topic, message)
+            rig.observer.spin(PAUSE)
+            sent += 1
+            if sent % CLOSE_LOOK == 0:
+                _look(rig, f'{topic}: {what}')
+        _look(rig, topic)
+    rig.observer.spin(1.0)
+    finger.turn()
+    if finger.reason() in HELD:
+        finger.resume()
+    finger.wait_until_moving(10.0)
+    _look(rig, 'at the end')
+    return sent
+
+
+def _stamped(message: Any) -> Any:
+    """Give a copy that is stamped now."""
+    fresh = copy.deepcopy(message)
+    stamp = fresh.header.stamp
+    stamp.sec, stamp.nanosec = divmod(time.time_ns(), 1_000_000_000)
+    return fresh
+
+
+def _look(rig: Rig, after: str) -> None:
+    """Raise `FuzzError` if a node has ended, thrown or moved by what is no number."""
+    found = rig.complaints()
+    if not all(math.isfinite(field(h.message, 'v_x')) for h in rig.finger.truth[-100:]):
+        found.append('the finger moves at no finite velocity')
+    if found:
+        raise FuzzError(f'after {after}: {"; ".join(found)}')

@@ -1,0 +1,365 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""The player with real subscribers, in a domain of its own for each test."""
+
+import time
+from types import SimpleNamespace
+
+import pytest
+from mcap.writer import Writer
+
+rclpy = pytest.importorskip('rclpy')
+
+from rclpy.context import Context  # noqa: E402
+from rclpy.executors import SingleThreadedExecutor  # noqa: E402
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy  # noqa: E402
+from rclpy.serialization import serialize_message  # noqa: E402
+from rosgraph_msgs.msg import Clock  # noqa: E402
+from std_msgs.msg import Int64, String  # noqa: E402
+
+from tactile_push.bags import BagWriter  # noqa: E402
+from tactile_push.bags.reader import BagError, BagReader  # noqa: E402
+from tactile_push.playing.player import PATIENCE, QUIET, Player  # noqa: E402
+from tactile_push.playing.schedule import part_of  # noqa: E402
+from tactile_push.testing.processes import claim_domain  # noqa: E402
+
+EPOCH = 1_700_000_000_000_000_000  # [ns]
+MS = 10**6
+INT64 = 'std_msgs/msg/Int64'
+INT64_HASH = 'RIHS01_8cd1048c2f186b6bd9a92472dc1ce51723c0833a221e2b7aecfff111774f4b49'
+
+
+def write(path, milliseconds, topic='/number', **options):
+    """Write a bag of numbers, each the time at which it is due."""
+    with BagWriter(path) as bag:
+        bag.add_topic(topic, INT64, **options)
+        for ms in milliseconds:
+            time = EPOCH + ms * MS
+            bag.write(topic, serialize_message(Int64(data=time)), time, time)
+    return BagReader(path)
+
+
+class Graph:
+    """A node that plays and one that listens, which run while the test spins them."""
+
+    def __init__(self):
+        self.context = Context()
+        domain, self.lock = claim_domain()
+        rclpy.init(context=self.context, domain_id=domain)
+        self.node = rclpy.create_node('player', context=self.context)
+        self.listener = rclpy.create_node('listener', context=self.context)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.node)
+        self.executor.add_node(self.listener)
+        self.heard = []
+        self.expects = False
+        self.ended = []
+        self.warnings = []
+        logger = SimpleNamespace(info=lambda text: None, warning=self.warnings.append)
+        self.node.get_logger = lambda: logger
+        self.player = None
+
+    def listen(self, message_type, topic, depth=1000, **policies):
+        """Note topic, message and when it came, in the order in which they come."""
+        self.expects = True
+        self.listener.create_subscription(
+            message_type,
+            topic,
+            lambda message: self.heard.append((topic, message, time.monotonic())),
+            QoSProfile(depth=depth, **policies),
+        )
+
+    def play(self, part, **options):
+        self.player = Player(self.node, part, lambda: self.ended.append(True), **options)
+        return self.player
+
+    def spin_until(self, condition):
+        deadline = time.monotonic() + 60.0
+        while not condition():
+            assert time.monotonic() < deadline, 'the condition did not come true in a minute'
+            self.executor.spin_once(timeout_sec=0.02)
+
+    def spin_to_the_end(self):
+        """Run until the play is over and all that was published for the listener has come."""
+        self.spin_until(lambda: self.ended)
+        assert self.player.error is None
+        if self.expects:
+            self.spin_until(lambda: len(self.numbers()) >= self.player.published)
+
+    def spin_for(self, seconds):
+        until = time.monotonic() + seconds
+        self.spin_until(lambda: time.monotonic() >= until)
+
+    def numbers(self):
+        return [message.data for _, message, _ in self.heard if isinstance(message, Int64)]
+
+    def shut_down(self):
+        if self.player is not None:
+            self.player.stop()
+        self.executor.shutdown()
+        self.node.destroy_node()
+        self.listener.destroy_node()
+        rclpy.shutdown(context=self.context)
+        self.lock.close()
+
+
+@pytest.fixture
+def graph():
+    graph = Graph()
+    yield graph
+    graph.shut_down()
+
+
+def due(*milliseconds):
+    return [EPOCH + ms * MS for ms in milliseconds]
+
+
+def test_all_messages_come_in_order_and_none_too_early(graph, tmp_path):
+    graph.listen(Int64, '/number')
+    bag = write(tmp_path / 'bag', range(0, 400, 10))
+    graph.play(part_of(bag), rate=2.0)
+    graph.spin_to_the_end()
+    assert graph.numbers() == due(*range(0, 400, 10))
+    assert graph.player.published == 40
+    # The last is due 195 ms after the first, which may have been held up but did not come early.
+    assert graph.heard[-1][2] - graph.heard[0][2] > 0.15
+    assert graph.player.position == pytest.approx(0.39)
+    assert not graph.warnings
+
+
+def test_clock_says_each_messages_time_before_it_and_never_goes_back(graph, tmp_path):
+    graph.listen(Clock, '/clock')
+    graph.listen(Int64, '/number')
+    bag = write(tmp_path / 'bag', [5, 5, 17, 40])
+    graph.play(part_of(bag), clock_rate=100.0)
+    graph.spin_to_the_end()
+    told = [
+        message.clock.sec * 10**9 + message.clock.nanosec
+        for topic, message, _ in graph.heard
+        if topic == '/clock'
+    ]
+    # From the bag's beginning on every 10 ms, and before messages in between.
+    assert sorted(set(told)) == due(5, 15, 17, 25, 35, 40)
+    assert told == sorted(told)
+    assert graph.numbers() == due(5, 5, 17, 40)
+    now = 0
+    for topic, message, _ in graph.heard:
+        if topic == '/clock':
+            now = message.clock.sec * 10**9 + message.clock.nanosec
+        else:
+            assert message.data <= now
+
+
+def test_clock_is_repeated_while_time_stands_still(graph, tmp_path):
+    graph.listen(Clock, '/clock')
+    player = graph.play(part_of(write(tmp_path / 'bag', [5, 60_000])), clock_rate=1.0, paused=True)
+    graph.spin_until(lambda: graph.heard)
+    assert player.waiting
+    graph.spin_until(lambda: not player.waiting)
+    player.step()
+    seen = len(graph.heard)
+    graph.spin_until(lambda: len(graph.heard) > seen + 3)
+    told = {message.clock.sec * 10**9 + message.clock.nanosec for _, message, _ in graph.heard}
+    assert told == set(due(5))
+
+
+def test_bag_that_ends_after_all_time_that_a_message_can_tell_is_refused(graph, tmp_path):
+    with BagWriter(tmp_path / 'bag') as bag:
+        bag.add_topic('/number', INT64)
+        bag.write('/number', serialize_message(Int64()), 2**31 * 10**9, 0)
+    with pytest.raises(BagError, match='/clock cannot tell'):
+        graph.play(part_of(BagReader(tmp_path / 'bag')), clock_rate=1.0)
+
+
+def test_loop_starts_over_until_it_is_stopped(graph, tmp_path):
+    graph.listen(Int64, '/number')
+    graph.play(part_of(write(tmp_path / 'bag', [0, 10, 20])), loop=True)
+    graph.spin_until(lambda: len(graph.heard) >= 10)
+    assert graph.numbers()[:10] == (due(0, 10, 20) * 4)[:10]
+    assert 0.0 <= graph.player.position <= 0.02
+    graph.player.stop()
+    seen = graph.player.published
+    graph.spin_until(lambda: len(graph.heard) == seen)
+    assert not graph.ended
+
+
+def test_pause_step_and_going_on(graph, tmp_path):
+    graph.listen(Int64, '/number')
+    player = graph.play(part_of(write(tmp_path / 'bag', [0, 1, 2, 3])), paused=True)
+    assert player.step() is None  # nobody is known to listen yet
+    graph.spin_until(lambda: not player.waiting)
+    graph.spin_for(0.2)
+    assert graph.heard == []
+    assert player.paused
+    for count in (1, 2):
+        assert player.step().log_time == EPOCH + (count - 1) * MS
+        graph.spin_until(lambda count=count: len(graph.heard) == count)
+    graph.spin_for(0.2)
+    assert len(graph.heard) == 2
+    assert player.position == pytest.approx(0.001)
+    player.pause(False)
+    graph.spin_to_the_end()
+    assert graph.numbers() == due(0, 1, 2, 3)
+
+
+def test_step_is_refused_unless_paused(graph, tmp_path):
+    player = graph.play(part_of(write(tmp_path / 'bag', [0, 60_000])))
+    graph.spin_until(lambda: player.published == 1)
+    assert player.step() is None
+    player.pause(True)
+    assert player.step().log_time == EPOCH + 60_000 * MS
+    assert player.step() is None  # but the end comes
+    graph.spin_to_the_end()
+
+
+def test_waits_for_subscribers_that_are_there_and_then_for_quiet(graph, tmp_path):
+    graph.listen(Int64, '/number', reliability=ReliabilityPolicy.BEST_EFFORT)
+    began = time.monotonic()
+    player = graph.play(part_of(write(tmp_path / 'bag', [0])))
+    graph.spin_to_the_end()
+    assert graph.numbers() == due(0)
+    assert time.monotonic() - began >= QUIET
+    assert not player.waiting
+    assert not graph.warnings
+
+
+def test_does_not_wait_for_ever_for_nobody(graph, tmp_path):
+    began = time.monotonic()
+    graph.play(part_of(write(tmp_path / 'bag', [0])))
+    graph.spin_to_the_end()
+    assert time.monotonic() - began >= PATIENCE
+    assert graph.warnings == ['playing, but nobody listens']
+
+
+def test_subscriber_that_cannot_be_served_is_not_waited_for(graph, tmp_path):
+    offer = {'reliability': 'best_effort', 'durability': 'volatile'}
+    graph.listen(Int64, '/number', reliability=ReliabilityPolicy.RELIABLE)
+    bag = write(tmp_path / 'bag', [0], qos=[offer])
+    graph.expects = False
+    graph.play(part_of(bag))
+    graph.spin_to_the_end()
+    assert graph.heard == []
+    assert graph.warnings == ['playing, but nobody listens']
+
+
+def test_late_subscriber_of_a_latched_topic_gets_what_was_played(graph, tmp_path):
+    offer = {'reliability': 'reliable', 'durability': 'transient_local'}
+    bag = write(tmp_path / 'bag', [0, 1, 60_000], qos=[offer])
+    player = graph.play(part_of(bag))
+    graph.spin_until(lambda: player.published == 2)
+    graph.listen(Int64, '/number', durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    graph.spin_until(lambda: len(graph.heard) == 2)
+    assert graph.numbers() == due(0, 1)
+
+
+def test_topic_gets_a_new_name(graph, tmp_path):
+    graph.listen(Int64, '/left/number')
+    bag = write(tmp_path / 'bag', [0])
+    graph.play(part_of(bag), names={'/number': '/left/number'})
+    graph.spin_to_the_end()
+    assert graph.numbers() == due(0)
+    assert graph.node.count_publishers('/number') == 0
+
+
+def write_strange(path, with_number):
+    """Write a bag whose topics cannot be published here, or one of them can."""
+    topics = {
+        '/unknown': ('nowhere_msgs/msg/Thing', ''),
+        '/other': (INT64, INT64_HASH[:-1] + '0'),
+        '/no-name': (INT64, INT64_HASH),
+    }
+    if with_number:
+        topics['/number'] = (INT64, INT64_HASH)
+    with open(path, 'wb') as stream:
+        mcap = Writer(stream)
+        mcap.start(profile='ros2', library='test')
+        for topic, (type_name, type_hash) in topics.items():
+            schema = mcap.register_schema(type_name, 'ros2msg', b'int64 data')
+            channel = mcap.register_channel(topic, 'cdr', schema, {'topic_type_hash': type_hash})
+            mcap.add_message(channel, EPOCH, serialize_message(Int64(data=EPOCH)), EPOCH)
+        mcap.finish()
+    return BagReader(path)
+
+
+def test_topics_that_cannot_be_published_are_left_out_with_one_warning(graph, tmp_path):
+    graph.listen(Int64, '/number')
+    graph.listen(Int64, '/other')
+    graph.play(part_of(write_strange(tmp_path / 'bag.mcap', with_number=True)))
+    graph.spin_to_the_end()
+    assert [topic for topic, _, _ in graph.heard] == ['/number']
+    (warning,) = graph.warnings
+    for words in ('/unknown', 'nowhere_msgs/msg/Thing is not installed', '/other', '/no-name'):
+        assert words in warning
+
+
+def test_bag_without_anything_that_can_be_published_is_refused(graph, tmp_path):
+    with pytest.raises(BagError, match='bag.mcap: none of its'):
+        graph.play(part_of(write_strange(tmp_path / 'bag.mcap', with_number=False)))
+
+
+def test_what_is_not_cdr_is_not_published(graph, tmp_path):
+    with open(tmp_path / 'bag.mcap', 'wb') as stream:
+        mcap = Writer(stream)
+        mcap.start(profile='', library='test')
+        schema = mcap.register_schema(INT64, 'jsonschema', b'{}')
+        mcap.add_message(mcap.register_channel('/number', 'json', schema), EPOCH, b'{}', EPOCH)
+        mcap.finish()
+    with pytest.raises(BagError, match='bag.mcap: none of its'):
+        graph.play(part_of(BagReader(tmp_path / 'bag.mcap')))
+    assert "/number (its messages are 'json', expected cdr)" in graph.warnings[0]
+
+
+def test_first_message_that_does_not_decode_is_told_and_played(graph, tmp_path):
+    data = serialize_message(Int64(data=7))
+    with BagWriter(tmp_path / 'bag') as bag:
+        bag.add_topic('/number', INT64)
+        bag.add_topic('/cut', INT64)
+        for k in range(3):
+            bag.write('/number', data, EPOCH + k, EPOCH + k)
+            bag.write('/cut', data[:9], EPOCH + k, EPOCH + k)
+    heard = []
+    graph.listener.create_subscription(Int64, '/cut', heard.append, 10, raw=True)
+    graph.play(part_of(BagReader(tmp_path / 'bag')))
+    graph.spin_to_the_end()
+    graph.spin_until(lambda: len(heard) == 3)
+    assert heard == [data[:9]] * 3
+    (warning,) = [warning for warning in graph.warnings if 'decode' in warning]
+    assert warning.startswith('/cut: the first message does not decode')
+
+
+def test_bag_that_cannot_be_read_further_ends_the_play_with_the_error(graph, tmp_path):
+    graph.listen(Int64, '/number')
+    bag = write(tmp_path / 'bag', [0, 1, 2])
+    read = bag.messages
+
+    def cut_off(*choice):
+        yield from list(read(*choice))[:2]
+        raise BagError('here it ends')
+
+    part = part_of(bag)
+    bag.messages = cut_off
+    player = graph.play(part)
+    graph.spin_until(lambda: graph.ended)
+    assert str(player.error) == 'here it ends'
+    graph.spin_until(lambda: len(graph.heard) == 2)
+
+
+def test_bytes_are_published_as_they_are(graph, tmp_path):
+    data = serialize_message(String(data='déjà vu'))
+    with BagWriter(tmp_path / 'bag') as bag:
+        bag.add_topic('/text', 'std_msgs/msg/String')
+        bag.write('/text', data, EPOCH, EPOCH)
+    heard = []
+    graph.listener.create_subscription(String, '/text', heard.append, 10, raw=True)
+    graph.play(part_of(BagReader(tmp_path / 'bag')))
+    graph.spin_to_the_end()
+    graph.spin_until(lambda: heard)
+    assert heard == [data]
+
+
+def test_stop_before_the_play_begins(graph, tmp_path):
+    player = graph.play(part_of(write(tmp_path / 'bag', [0])))
+    player.stop()
+    player.stop()
+    assert player.published == 0
+    assert player.waiting

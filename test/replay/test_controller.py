@@ -1,0 +1,252 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whatever happened to a controller, its ticks come out again."""
+
+import math
+from types import SimpleNamespace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tactile_push.control import INACTIVE, PUSHING, STATES, tick_values
+from tactile_push.parameters import values_of
+from tactile_push.parameters.push_controller import PARAMETERS, make_control
+from tactile_push.pipeline.stamps import epoch_of, seconds_since
+from tactile_push.replay.controller import Controller
+from tactile_push.replay.own_ticks import OwnTicks
+
+CHECKED = settings(derandomize=True, deadline=None, max_examples=150)
+BEGIN = 1_795_000_000  # some day in 2026 [s]
+EPOCH = epoch_of(BEGIN)
+PERIOD = 100_000_000  # [ns]
+
+
+def stamp_of(nanoseconds):
+    return divmod(nanoseconds, 10**9)
+
+
+def seconds(nanoseconds):
+    return seconds_since(EPOCH, *stamp_of(nanoseconds))
+
+
+def named_values(values, sec, nanosec):
+    """Give a message as it is read from a bag."""
+    header = SimpleNamespace(stamp=SimpleNamespace(sec=sec, nanosec=nanosec))
+    return SimpleNamespace(header=header, name=list(values), position=list(values.values()))
+
+
+class Live:
+    """A controller as its node runs it, and what a bag would hold of it."""
+
+    def __init__(self, simulated=False, **given):
+        self.simulated = simulated
+        self.control = make_control(values_of(PARAMETERS, given))
+        self.now = BEGIN * 10**9 + 123_456_789
+        self.steady = 17.0
+        self.before = math.nan
+        self.heard = []  # (log time, what, theta, stamp), (log time, what, message)
+        self.ticks = []
+        self.activate()
+
+    def activate(self):
+        self.control.activate(seconds(self.now))
+        self.before = math.nan
+
+    def deactivate(self):
+        self.record(self.control.deactivate())
+
+    def contact(self, theta, age):
+        at = self.now - age
+        self.control.feel(theta, seconds(at))
+        self.heard.append((self.now - age // 2, 'contact', theta, stamp_of(at)))
+
+    def position(self, x, age):
+        self.control.locate_finger(x, seconds(self.now - age))
+
+    def tick(self):
+        self.steady += 0.1
+        elapsed = math.nan if self.simulated else self.steady - self.before
+        self.before = self.steady
+        self.record(self.control.tick(seconds(self.now), elapsed))
+        self.now += PERIOD
+
+    def record(self, tick):
+        sec, nanosec = stamp_of(self.now)
+        message = named_values(tick_values(tick, self.control.law), sec, nanosec)
+        self.heard.append((self.now + 1000, 'state', message))
+        self.ticks.append((stamp_of(self.now), tick))
+
+    def jump(self, nanoseconds):
+        self.now += nanoseconds
+        self.control.notice_clock_jump(seconds(self.now))
+
+    def wait(self, periods):
+        """Stand still for a while."""
+        self.now += periods * PERIOD
+        self.steady += periods * 0.1
+
+
+def replayed(live, start=0, overridden=(), **given):
+    """Give the ticks of a bag that begins at an entry of what was heard."""
+    controller = Controller(given, set(overridden), EPOCH)
+    ticks = []
+    for log_time, what, *rest in live.heard[start:]:
+        if what == 'contact':
+            ticks += controller.contact(*rest, log_time)
+        else:
+            ticks += controller.state(*rest, log_time)
+    return [*ticks, *controller.go_on(math.inf)]
+
+
+def same(replayed, lived):
+    """Compare ticks to the bit, NaN with NaN."""
+    return [(r.stamp, repr(r.tick)) for r in replayed] == [(s, repr(t)) for s, t in lived]
+
+
+THETA = st.floats(-1.2, 1.2)
+AGE = st.integers(1_000_000, 99_000_000)
+EVENTS = st.one_of(
+    st.tuples(st.just('contact'), THETA, AGE),
+    st.tuples(st.just('contact'), THETA, AGE),
+    st.tuples(st.just('contact'), THETA, AGE),
+    st.tuples(st.just('contact'), st.just(math.nan), AGE),
+    st.tuples(st.just('position'), st.floats(-0.11, 0.11), AGE),
+    st.tuples(st.just('tick')),
+    st.tuples(st.just('tick')),
+    st.tuples(st.just('another')),
+    st.tuples(st.just('resume')),
+    st.tuples(st.just('jump'), st.sampled_from([-3_600_000_000_000, 1_000_000_000])),
+    st.tuples(st.just('wait'), st.integers(1, 6)),
+    st.tuples(st.just('restart')),
+)
+
+
+def happen(live, events):
+    """Let things happen, one control period after another."""
+    ages = []
+    for what, *how in events:
+        if what == 'contact':
+            ages.append((how[1], how[0]))
+            continue
+        for age, theta in sorted(ages, reverse=True):  # as they arrive, the oldest first
+            live.contact(theta, age)
+        ages = []
+        if what == 'position':
+            live.position(*how)
+        elif what == 'another':
+            live.control.notice_another_command()
+        elif what == 'resume':
+            live.control.resume()
+        elif what == 'jump' and live.ticks:
+            live.jump(*how)
+        elif what == 'wait':
+            live.wait(*how)
+        elif what == 'restart' and live.ticks:
+            live.deactivate()
+            live.activate()
+        if what != 'tick':
+            continue
+        live.tick()
+
+
+@CHECKED
+@given(events=st.lists(EVENTS, min_size=10, max_size=80), simulated=st.booleans())
+def test_whatever_happened_comes_out_again_to_the_bit(events, simulated):
+    live = Live(simulated)
+    # One thing a control period at the most that is no reading.
+    happen(live, [step for event in events for step in (event, ('tick',)) if event[0] != 'tick'])
+    assert same(replayed(live), live.ticks)
+
+
+def pushing(periods=20, **given):
+    live = Live(**given)
+    for k in range(periods):
+        live.contact(0.3 - 0.01 * k, 60_000_000)
+        live.contact(0.3 - 0.01 * k - 0.003, 10_000_000)
+        live.position(0.001 * k, 5_000_000)
+        live.tick()
+    return live
+
+
+@pytest.mark.parametrize('cut', range(1, 20))
+def test_a_bag_that_begins_in_the_middle_is_followed_from_the_second_push_on(cut):
+    live = pushing()
+    ticks = replayed(live, start=cut)
+    kept = [tick for tick in ticks if tick.tick is None]
+    assert len(kept) <= 3
+    followed = ticks[len(kept) :]
+    assert same(followed, live.ticks[-len(followed) :])
+    assert len(followed) >= len(live.ticks) - cut // 3 - 4
+
+
+def test_contacts_recorded_after_the_tick_that_used_them_are_waited_for():
+    live = pushing()
+    live.heard = [
+        (at + (350_000_000 if what == 'contact' else 0), what, *rest)
+        for at, what, *rest in live.heard
+    ]
+    live.heard.sort(key=lambda entry: entry[0])
+    assert same(replayed(live), live.ticks)
+
+
+def test_tick_whose_contact_is_missing_does_not_keep_the_others_waiting_for_ever():
+    live = pushing(30)
+    missing = [k for k, entry in enumerate(live.heard) if entry[1] == 'contact'][21]
+    del live.heard[missing]
+    ticks = replayed(live)
+    assert [tick.stamp for tick in ticks] == [stamp for stamp, _ in live.ticks]
+    assert repr(ticks[9].tick) == repr(live.ticks[9][1])
+    assert ticks[10].tick.theta == live.heard[20 + 10][2] or ticks[10].tick != live.ticks[10][1]
+
+
+def test_other_gains_give_what_a_controller_with_them_would_have_commanded():
+    live, other = pushing(kd=5.0), pushing(kd=2.0)
+    ticks = replayed(live, overridden=['kd'], kd=2.0)
+    assert [t.tick.v_x for t in ticks] == [tick.v_x for _, tick in other.ticks]
+    assert [t.recorded.v_x for t in ticks] == [tick.v_x for _, tick in live.ticks]
+
+
+def test_a_record_without_the_later_fields_can_be_followed():
+    live = pushing()
+    old = []
+    for log_time, what, *rest in live.heard:
+        if what == 'state':
+            message = rest[0]
+            rest = [
+                SimpleNamespace(
+                    header=message.header, name=message.name[:-2], position=message.position[:-2]
+                )
+            ]
+        old.append((log_time, what, *rest))
+    live.heard = old
+    assert [t.tick.v_x for t in replayed(live)] == [tick.v_x for _, tick in live.ticks]
+
+
+def test_without_a_record_the_law_ticks_at_its_own_rate_from_the_first_contact_on():
+    own = OwnTicks({}, EPOCH)
+    control = make_control(values_of(PARAMETERS, {}))
+    ticks, expected = [], []
+    for k in range(41):  # every 50 ms
+        at = BEGIN * 10**9 + k * 50_000_000
+        ticks += own.reading(0.3 - 0.005 * k, stamp_of(at), at)
+    control.activate(seconds(BEGIN * 10**9))
+    for k in range(20):
+        at = BEGIN * 10**9 + 2 * k * 50_000_000
+        control.feel(0.3 - 0.005 * 2 * k, seconds(at))
+        expected.append(control.tick(seconds(at)).v_x)
+    assert [tick.tick.v_x for tick in ticks] == expected
+    assert [tick.stamp for tick in ticks] == [
+        stamp_of(BEGIN * 10**9 + k * 100_000_000) for k in range(20)
+    ]
+
+
+def test_without_contacts_there_is_nothing_to_tick_on_and_silence_stops():
+    own = OwnTicks({}, EPOCH)
+    begin = BEGIN * 10**9
+    assert not list(own.reading(None, stamp_of(begin), begin))
+    assert not list(own.reading(0.2, stamp_of(begin + 1), begin))
+    ticks = list(own.reading(None, stamp_of(begin + 10 * PERIOD), begin))
+    assert [tick.tick.state for tick in ticks[:4]] == [PUSHING] * 4
+    assert all(tick.tick.v_x == 0.0 for tick in ticks[4:])
+    assert INACTIVE in STATES

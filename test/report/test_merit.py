@@ -1,0 +1,209 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""Figures of merit against histories of which they are known by construction."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tactile_push.paper import paper_figures
+from tactile_push.report.merit import FIELDS, PushHistory
+
+BAND = 0.05
+PERIOD = 0.1
+# The numbers that the README gives on push_controller/state.
+INACTIVE, WAITING, PUSHING, STOPPED = range(4)
+CONTACT_SILENT, WORKSPACE_LIMIT, TICKS_LOST = 1, 3, 5
+
+
+def figures_of(rows, l=None, pushed=None, drop=()):
+    """Return the figures of states that are given by what is special about them."""
+    history = PushHistory(BAND, l, pushed)
+    usual = {
+        'theta': 0.0,
+        'theta_desired': 0.0,
+        'phi': 1.5,
+        'v_x': 0.0,
+        'silence': 0.0,
+        'saturated': 0.0,
+        'limited': 0.0,
+        'state': PUSHING,
+        'stop_reason': 0,
+        'ticks_lost': 0,
+    }
+    for k, row in enumerate(rows):
+        values = {**usual, 'ticks': k + 1, **row}
+        time = k * PERIOD
+        kept = {name: float(value) for name, value in values.items() if name not in drop}
+        history.add(time, 1000.0 + time, kept)
+    return history.figures()
+
+
+def columns(**values):
+    """Return rows of columns."""
+    return [dict(zip(values, row, strict=True)) for row in zip(*values.values(), strict=True)]
+
+
+def test_steps_are_the_states_in_which_the_law_acts():
+    rows = [{'state': state} for state in (WAITING, WAITING, PUSHING, STOPPED, PUSHING, INACTIVE)]
+    figures = figures_of(rows)
+    assert (figures.states, figures.steps) == (6, 2)
+
+
+def test_settling_counts_steps_not_states():
+    theta = [9.0, 0.3, 0.2, 0.01, 0.2, 0.04, -0.04]
+    rows = columns(theta=theta, state=[WAITING, *[PUSHING] * 6])
+    assert figures_of(rows).settle_step == 4
+    assert figures_of(rows[:5]).settle_step is None
+    assert figures_of(rows[3:4]).settle_step == 0
+    assert figures_of(rows[:1]).settle_step is None
+
+
+def test_settling_is_around_the_angle_desired_at_the_time():
+    rows = columns(theta=[0.0, 0.0, 0.0, 0.4, 0.5], theta_desired=[0.0, 0.0, 0.5, 0.5, 0.5])
+    figures = figures_of(rows)
+    assert figures.settle_step == 4
+    assert (figures.theta_desired, figures.theta_desired_changes) == (0.5, 1)
+
+
+@pytest.mark.parametrize(
+    ('steps', 'first'),
+    [(1, 1), (3, 2), (90, 60), (100, 67), (399, 266), (400, 267), (401, 400), (450, 400)],
+)
+def test_ranges_are_those_after_step_400_or_of_the_last_third(steps, first):
+    # Decreasing, so that the first step of the range is the greatest.
+    theta = -np.arange(steps) / 1000.0
+    phi = 2.0 - np.arange(steps) / 500.0
+    figures = figures_of(columns(theta=theta, phi=phi))
+    assert figures.ranges_from == first
+    if first < steps:
+        assert figures.theta_range == (theta[-1], theta[first])
+        assert figures.phi_range == (phi[-1], phi[first])
+    else:
+        assert figures.theta_range is figures.phi_range is None
+
+
+def test_bounds_on_d_by_17():
+    # Straight pushes through the centre of mass: d = 0 if phi - theta is 90 degrees, and
+    # d = -l / tan(phi - theta) otherwise.
+    beta = np.radians([20.0, 90.0, 135.0, 45.0, 60.0, 190.0])
+    figures = figures_of(columns(phi=beta[1:], theta=[0.0] * 5), l=0.02)
+    assert figures.ranges_from == 4
+    assert figures.d_range is None  # of a finger that moves away from the object
+    steps = columns(phi=np.tile(beta[:5] + 0.1, 3), theta=[0.1] * 15)
+    figures = figures_of(steps, l=0.02)
+    assert figures.ranges_from == 10
+    assert figures.d_range == pytest.approx((-0.02 / math.tan(math.radians(20.0)), 0.02))
+    assert figures.l == 0.02
+    assert figures_of(steps).d_range is None
+
+
+def test_commands_and_bounds():
+    rows = columns(
+        v_x=[math.nan, 0.003, -0.001, 0.0, 0.009],
+        saturated=[1, 1, 0, 0, 1],
+        limited=[1, 0, 1, 1, 0],
+        state=[WAITING, PUSHING, PUSHING, PUSHING, STOPPED],
+    )
+    figures = figures_of(rows)
+    assert figures.v_x_range == (-0.001, 0.003)
+    assert figures.saturated_share == pytest.approx(1 / 3)
+    assert figures.limited_share == pytest.approx(2 / 3)
+
+
+def test_ticks_of_several_activations_add_up():
+    figures = figures_of(columns(ticks=[1, 2, 4, 4, 1, 3, 2], ticks_lost=[0, 0, 1, 1, 0, 1, 0]))
+    assert (figures.ticks, figures.ticks_lost) == (4 + 3 + 2, 1 + 1)
+
+
+def test_longest_silence_is_that_after_the_first_contact():
+    states = [WAITING, PUSHING, STOPPED, STOPPED, PUSHING, INACTIVE]
+    figures = figures_of(columns(silence=[9.0, 0.1, 0.4, 0.5, 0.0, 7.0], state=states))
+    assert (figures.silence, figures.silence_at) == (0.5, 3 * PERIOD)
+    assert figures_of([{'state': WAITING}]).silence is None
+
+
+def test_stops():
+    states = [PUSHING, STOPPED, STOPPED, PUSHING, STOPPED, STOPPED, INACTIVE, STOPPED, STOPPED]
+    reasons = [0, CONTACT_SILENT, CONTACT_SILENT, 0, WORKSPACE_LIMIT, TICKS_LOST, 0, 77, 77]
+    stops = figures_of(columns(state=states, stop_reason=reasons)).stops
+    assert [(stop.reason, stop.ended) for stop in stops] == [
+        ('contact silent', True),
+        ('workspace limit', True),
+        ('ticks lost', True),
+        ('unknown (77)', False),
+    ]
+    assert [stop.at for stop in stops] == pytest.approx([0.1, 0.4, 0.5, 0.7])
+    assert [stop.duration for stop in stops] == pytest.approx([0.2, 0.1, 0.1, 0.1])
+
+
+def test_no_stop():
+    assert figures_of([{}] * 3).stops == []
+
+
+@pytest.mark.parametrize('name', FIELDS)
+def test_older_bag_without_a_field(name):
+    rows = columns(theta=np.linspace(1.0, 0.0, 30), theta_desired=[0.02] * 30)
+    figures = figures_of(rows, l=0.02, drop=[name])
+    assert figures.missing == (name,)
+    assert figures.steps == 30
+    expected = {
+        'theta': 'theta_range',
+        'theta_desired': 'theta_desired',
+        'phi': 'phi_range',
+        'v_x': 'v_x_range',
+        'silence': 'silence',
+        'saturated': 'saturated_share',
+        'limited': 'limited_share',
+        'ticks': 'ticks',
+        'ticks_lost': 'ticks_lost',
+    }
+    missing = {expected[name]} if name in expected else set()
+    if name in ('theta', 'phi'):
+        missing.add('d_range')
+    if name in ('theta', 'theta_desired'):
+        missing.add('settle_step')
+    values = {key: getattr(figures, key) for key in ('settle_step', *expected.values(), 'd_range')}
+    assert {key for key, value in values.items() if value is None} == missing
+
+
+def test_nothing_at_all():
+    figures = figures_of([])
+    assert (figures.states, figures.steps, figures.stops) == (0, 0, [])
+    assert figures.missing == FIELDS
+    assert figures.settle_step is figures.theta_range is figures.paper is None
+
+
+@pytest.mark.parametrize('settled', [0, 1, 4095, 4096, 4097, 8192, 8999])
+def test_long_runs_are_evaluated_piece_by_piece_with_the_same_result(settled):
+    count = 9001
+    random = np.random.default_rng(settled)
+    theta = random.uniform(-0.04, 0.04, count)
+    theta[:settled] = random.uniform(-1.0, 1.0, settled)
+    if settled:
+        theta[settled - 1] = 0.06
+    figures = figures_of(columns(theta=theta, phi=theta + 1.5, v_x=theta, saturated=theta > 0))
+    assert figures.settle_step == settled
+    assert figures.theta_range == (theta[400:].min(), theta[400:].max())
+    assert figures.v_x_range == (theta.min(), theta.max())
+    assert figures.saturated_share == pytest.approx(np.mean(theta > 0))
+    assert figures.steps == count
+
+
+# reference.md: figures 9 and 10 of the paper.
+def test_paper_is_beside_what_it_tells_of():
+    block = paper_figures(math.radians(-10.0), 'block')
+    assert (block.figure, block.settle_step) == ('9', 173)
+    assert np.degrees(block.theta_range) == pytest.approx([-10.4, -8.9])
+    assert np.degrees(block.phi_range) == pytest.approx([80.2, 85.8])
+    assert block.d_range == (0.0003, 0.0021)
+    assert math.degrees(block.band) == pytest.approx(3.0)
+    disk = paper_figures(0.0, 'disk')
+    assert (disk.figure, disk.settle_step) == ('10', 110)
+    assert math.degrees(disk.band) == pytest.approx(1.0)
+    assert paper_figures(math.radians(-10.0), None) is block
+    assert paper_figures(0.0, None) is disk
+    assert paper_figures(0.0, 'block') is None
+    assert paper_figures(math.radians(-10.0), 'disk') is None
+    assert paper_figures(math.radians(20.0), None) is None

@@ -1,0 +1,61 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""Simulated pushes for the tests of estimators."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from tactile_push.control import PushLaw, finger_velocity
+from tactile_push.mechanics import Outline, Slider
+from tactile_push.simulation import Rig, RigConfig
+
+NOISE = math.radians(0.2)
+BELT = 0.005
+PERIOD = 0.1
+BLOCK = ((-0.025, -0.02375), (0.025, -0.02375), (0.025, 0.02375), (-0.025, 0.02375))
+PLATE = ((-0.04, -0.01), (0.04, -0.01), (0.04, 0.01), (-0.04, 0.01))
+TRIANGLE = ((-0.03, -0.015), (0.04, -0.02), (-0.01, 0.035))
+RADIUS = 0.0135
+
+
+@dataclass(frozen=True)
+class Push:
+    """The finger's motion up to a reading, and what is true then."""
+
+    theta: float  # the reading
+    v_x: float
+    duration: float
+    d: float
+    x: float  # centre of mass from the finger's disk [m]
+    y: float
+    angle: float  # of the object [rad]
+
+
+def rig_of(vertices, edge, theta, d, mu_c=math.inf, c=0.0187):
+    """Push an edge of a polygon, numbered from its first corner."""
+    corners = np.roll(np.array(vertices), -edge, axis=0)
+    return Rig(RigConfig(Slider(Outline.polygon(corners), c), mu_c, theta, d))
+
+
+def pushes(rig, steps, seed, noise=NOISE, belt_stops=None):
+    """Let the paper's law push, as long as the contact is on the edge it starts on."""
+    rng = np.random.default_rng(seed)
+    law = PushLaw(0.05, 5.0, math.radians(-10.0))
+    length = rig.config.slider.outline.pieces[0, 3]
+    x, made = 0.0, []
+    for k in range(steps + 1):
+        theta, pose = rig.theta + noise * rng.standard_normal(), rig.object_in_finger_disk
+        v_x, x = (rig.finger_x - x) / PERIOD, rig.finger_x
+        made.append(Push(theta, v_x, PERIOD if k else 0.0, rig.d, pose.x, pose.y, pose.angle))
+        running = belt_stops is None or k < belt_stops
+        rig.step(finger_velocity(law.update(theta), BELT), PERIOD, running)
+        if not rig.touching or not 0.0 <= rig.sigma <= length:
+            break
+    return made
+
+
+def follow(estimator, made):
+    """Give the estimates, one a push."""
+    return [estimator.push(one.theta, one.v_x, BELT, one.duration) for one in made]
