@@ -2,21 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Build of the package, for pip and for colcon alike."""
 
+import runpy
 from glob import glob
+from pathlib import Path
 
 from setuptools import find_packages, setup
 
 NAME = 'tactile_push'
-NODES = (
-    'sensor_driver',
-    'contact_geometry',
-    'push_controller',
-    'active_sensing',
-    'sim_plant',
-    'experiment',
-    'bag_recorder',
-    'bag_player',
-)
+# Read without importing the package, which needs more than the build has.
+NODES = runpy.run_path(str(Path(__file__).parent / NAME / 'interface.py'))['NODES']
 
 setup(
     name=NAME,

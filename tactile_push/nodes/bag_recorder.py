@@ -11,11 +11,12 @@ from rclpy.node import Node
 
 from tactile_push.bags import BagWriter
 from tactile_push.bags.writer import COMPRESSIONS
+from tactile_push.interface import RECORDED
 from tactile_push.nodes.ros.diagnostics import OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
 from tactile_push.parameters import Parameter
-from tactile_push.recording.recording import TOPICS, Recording
+from tactile_push.recording.recording import Recording
 
 
 class BagRecorder(Node):
@@ -34,7 +35,7 @@ class BagRecorder(Node):
             'folder that the bag makes, not there yet; without one, tactile_push_ and the date',
             read_only=True,
         ),
-        Parameter('topics', list(TOPICS), '', 'topics to record if they come up', read_only=True),
+        Parameter('topics', list(RECORDED), '', 'topics to record if they come up', read_only=True),
         Parameter(
             'all', False, '', 'record all topics instead that are not hidden', read_only=True
         ),

@@ -13,25 +13,21 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from tactile_push.bags import BagWriter
+from tactile_push.interface import (
+    CLOCK,
+    COMMAND,
+    CONTACT,
+    CONTROLLER_STATE,
+    PARAMETER_EVENTS,
+    RECORDED,
+)
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
 from tactile_push.parameters import Parameter
-from tactile_push.recording.recording import TOPICS, Recording
+from tactile_push.recording.recording import Recording
 
 # Without these recorded from the beginning no experiment starts.
-AWAITED = (
-    'tactile',
-    'joint_states',
-    'contact',
-    'contact_geometry/state',
-    'finger/cmd_vel',
-    'push_controller/state',
-    'object_pose',
-    'active_sensing/state',
-    'ground_truth/object_pose',
-    'ground_truth/state',
-    '/diagnostics',
-)
+AWAITED = tuple(topic for topic in RECORDED if topic not in (CLOCK, PARAMETER_EVENTS))
 LOOK_PERIOD = 0.05  # [s]
 
 
@@ -58,7 +54,7 @@ class Experiment(Node):
             raise ConfigurationError(
                 f'parameter bag: {error.filename}: {error.strerror}, expected a new folder'
             ) from None
-        self._recording = Recording(self, TOPICS, writer)
+        self._recording = Recording(self, RECORDED, writer)
         self._awaited = {self.resolve_topic_name(topic) for topic in AWAITED}
         self._controller = self.create_client(ChangeState, 'push_controller/change_state')
         self._transitions = [Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_ACTIVATE]
@@ -99,8 +95,8 @@ class Experiment(Node):
 
     def _ready(self) -> bool:
         """Tell whether all is recorded, and contacts and control periods are heard."""
-        contact = self.resolve_topic_name('contact')
-        state = self.resolve_topic_name('push_controller/state')
+        contact = self.resolve_topic_name(CONTACT)
+        state = self.resolve_topic_name(CONTROLLER_STATE)
         return (
             self._awaited.isdisjoint(self._recording.recorder.missing())
             and self._recording.recorder.counts[contact] > 0
@@ -109,7 +105,7 @@ class Experiment(Node):
         )
 
     def _report(self) -> None:
-        steps = self._recording.recorder.counts[self.resolve_topic_name('finger/cmd_vel')]
+        steps = self._recording.recorder.counts[self.resolve_topic_name(COMMAND)]
         if steps != self._steps:
             self._steps = steps
             print(steps, flush=True)

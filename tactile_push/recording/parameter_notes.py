@@ -14,16 +14,8 @@ from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
 from rclpy.task import Future
 
-NODES = (
-    'sensor_driver',
-    'contact_geometry',
-    'push_controller',
-    'active_sensing',
-    'sim_plant',
-    'experiment',
-    'bag_recorder',
-    'bag_player',
-)
+from tactile_push.interface import NODES
+
 LOOK_PERIOD = 0.2  # between looks for nodes that have not been asked [s]
 ASK_AGAIN = 5  # looks after which an answer that has not come is lost
 

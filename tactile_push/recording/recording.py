@@ -11,24 +11,9 @@ from typing import Any
 from rclpy.node import Node
 
 from tactile_push.bags import BagWriter
+from tactile_push.interface import PARAMETERS_NOTE, VERSION_NOTE
 from tactile_push.recording.parameter_notes import ParameterNotes
 from tactile_push.recording.recorder import Recorder
-
-TOPICS = (
-    'tactile',
-    'joint_states',
-    'contact',
-    'contact_geometry/state',
-    'finger/cmd_vel',
-    'push_controller/state',
-    'object_pose',
-    'active_sensing/state',
-    'ground_truth/object_pose',
-    'ground_truth/state',
-    '/clock',
-    '/diagnostics',
-    '/parameter_events',
-)
 
 
 class Recording:
@@ -51,7 +36,7 @@ class Recording:
 
     def __init__(self, node: Node, topics: Sequence[str] | None, writer: BagWriter) -> None:
         self._writer = writer
-        writer.note('tactile_push.version', version('tactile_push'))
+        writer.note(VERSION_NOTE, version('tactile_push'))
         self.recorder = Recorder(node, topics, writer)
         ParameterNotes(node, self._note_parameters)
 
@@ -64,4 +49,4 @@ class Recording:
     def _note_parameters(self, parameters: dict[str, dict[str, Any]]) -> None:
         # Values that JSON does not have are arrays, and infinite as Python writes them.
         text = json.dumps(parameters, default=list)
-        self._writer.note('tactile_push.parameters', text)
+        self._writer.note(PARAMETERS_NOTE, text)

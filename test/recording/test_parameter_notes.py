@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Asking nodes of this process for their parameters."""
 
-import re
 import time
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -16,7 +14,7 @@ from rclpy.executors import SingleThreadedExecutor  # noqa: E402
 from rclpy.task import Future  # noqa: E402
 
 from tactile_push.recording import parameter_notes  # noqa: E402
-from tactile_push.recording.parameter_notes import ASK_AGAIN, NODES, ParameterNotes  # noqa: E402
+from tactile_push.recording.parameter_notes import ASK_AGAIN, ParameterNotes  # noqa: E402
 from tactile_push.testing.processes import claim_domain  # noqa: E402
 
 
@@ -99,12 +97,6 @@ def test_node_that_does_not_answer_is_left_out_and_nobody_waits(graph):
     graph.nodes.remove(silent)
     silent.destroy_node()
     assert graph.spin_until(lambda: not list(graph.asker.clients))
-
-
-def test_all_nodes_of_the_package_are_known():
-    setup = (Path(__file__).resolve().parents[2] / 'setup.py').read_text()
-    installed = re.search(r'NODES = \((.*?)\)', setup, re.DOTALL).group(1)
-    assert set(re.findall(r"'(\w+)'", installed)) <= set(NODES)
 
 
 class Client:

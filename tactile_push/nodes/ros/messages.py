@@ -8,13 +8,11 @@ from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TwistStamped
 from sensor_msgs.msg import JointState
 
+from tactile_push.interface import FINGER_BASE, FINGER_DISK
 from tactile_push.mechanics.compiled import Array
 from tactile_push.pipeline.orientation import covariance_in_space, quaternion_of_yaw
 from tactile_push.pipeline.stamps import stamp_before
 from tactile_push.tactile import Contact
-
-FINGER_DISK = 'finger_disk'  # frame of the contacts
-FINGER_BASE = 'finger_base'  # frame of the commands
 
 
 def named_values(stamp: Time, values: Mapping[str, float]) -> JointState:

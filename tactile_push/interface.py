@@ -1,0 +1,434 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""The ROS interface: topics with their fields, frames, services and nodes.
+
+Every name that nodes, bags, commands and documentation share stands here and nowhere else. This
+module imports the standard library alone, so that the build can read it before anything is
+installed.
+"""
+
+from collections.abc import Collection, Iterable
+from typing import NamedTuple
+
+
+class Field(NamedTuple):
+    """A number in a sensor_msgs/JointState message.
+
+    Parameters
+    ----------
+    name : str
+        Name of the joint in the message.
+    unit : str
+        SI unit; empty for counts, flags and codes.
+    words : str
+        Meaning.
+    codes : str, optional
+        If the number is a code: the tuple whose index it is, such as ``'control.STATES'`` for
+        ``tactile_push.control.STATES``.
+    array : str, optional
+        Array of the message that holds the number.
+    """
+
+    name: str
+    unit: str
+    words: str
+    codes: str = ''
+    array: str = 'position'
+
+
+class Topic(NamedTuple):
+    """A topic.
+
+    Parameters
+    ----------
+    name : str
+        Name. Relative unless it begins with a slash: a namespace makes a second finger.
+    type_name : str
+        Message type, such as ``'sensor_msgs/msg/JointState'``.
+    givers, takers : tuple of str
+        Nodes that publish it and nodes that subscribe to it.
+    content : str
+        What a message says, and when one is published.
+    fields : tuple of Field, optional
+        Numbers of a JointState message, in their order.
+    recorded : bool, optional
+        Whether the recorder takes it by default.
+    """
+
+    name: str
+    type_name: str
+    givers: tuple[str, ...]
+    takers: tuple[str, ...]
+    content: str
+    fields: tuple[Field, ...] = ()
+    recorded: bool = True
+
+    @property
+    def field_names(self) -> tuple[str, ...]:
+        """Names of the fields in their order."""
+        return tuple(field.name for field in self.fields)
+
+
+class Service(NamedTuple):
+    """A service.
+
+    Parameters
+    ----------
+    name : str
+        Name; ``~`` stands for the node's name.
+    type_name : str
+        Service type.
+    node : str
+        Node that offers it.
+    content : str
+        What it does.
+    """
+
+    name: str
+    type_name: str
+    node: str
+    content: str
+
+
+class NodeSummary(NamedTuple):
+    """A node.
+
+    Parameters
+    ----------
+    name : str
+        Name of the node, of its executable and of its module in `tactile_push.nodes`.
+    summary : str
+        What it does.
+    managed : bool, optional
+        Whether it is a managed (lifecycle) node.
+    """
+
+    name: str
+    summary: str
+    managed: bool = False
+
+
+# Frames.
+FINGER_BASE = 'finger_base'  # fixed to the machine; commands are given in it
+FINGER_DISK = 'finger_disk'  # centre of the finger's disk; contacts and poses are given in it
+FINGERTIP = 'fingertip'  # turns with the tip; azimuth and elevation are measured in it
+
+# Nodes.
+SENSOR_DRIVER = 'sensor_driver'
+CONTACT_GEOMETRY = 'contact_geometry'
+PUSH_CONTROLLER = 'push_controller'
+ACTIVE_SENSING = 'active_sensing'
+SIM_PLANT = 'sim_plant'
+EXPERIMENT = 'experiment'
+BAG_RECORDER = 'bag_recorder'
+BAG_PLAYER = 'bag_player'
+
+# Topics.
+TACTILE = 'tactile'
+JOINT_STATES = 'joint_states'
+CONTACT = 'contact'
+GEOMETRY_STATE = 'contact_geometry/state'
+COMMAND = 'finger/cmd_vel'
+CONTROLLER_STATE = 'push_controller/state'
+OBJECT_POSE = 'object_pose'
+SENSING_STATE = 'active_sensing/state'
+SENSING_MARKERS = 'active_sensing/markers'
+TRUE_POSE = 'ground_truth/object_pose'
+TRUE_STATE = 'ground_truth/state'
+MARKERS = 'markers'
+CLOCK = '/clock'
+DIAGNOSTICS = '/diagnostics'
+PARAMETER_EVENTS = '/parameter_events'
+
+# Services.
+RESUME = 'push_controller/resume'
+PAUSE, STEP = '~/pause', '~/step'
+
+# What the recorder notes in a bag beside the messages.
+PARAMETERS_NOTE = 'tactile_push.parameters'  # JSON: full node name without the slash to values
+VERSION_NOTE = 'tactile_push.version'
+
+JOINT_STATE_TYPE = 'sensor_msgs/msg/JointState'
+POSE_TYPE = 'geometry_msgs/msg/PoseStamped'
+UNCERTAIN_POSE_TYPE = 'geometry_msgs/msg/PoseWithCovarianceStamped'
+TWIST_TYPE = 'geometry_msgs/msg/TwistStamped'
+MARKERS_TYPE = 'visualization_msgs/msg/MarkerArray'
+
+NODES = {
+    node.name: node
+    for node in (
+        NodeSummary(
+            SENSOR_DRIVER, "reads the tactile sensor's sentences from a device", managed=True
+        ),
+        NodeSummary(CONTACT_GEOMETRY, 'computes the contact from a reading and the joint angles'),
+        NodeSummary(
+            PUSH_CONTROLLER, 'turns the object with the control law (18) of the paper', managed=True
+        ),
+        NodeSummary(
+            ACTIVE_SENSING,
+            'infers where the finger touches the object and where its centre of mass is',
+        ),
+        NodeSummary(SIM_PLANT, 'simulates belt, object, finger and sensor in place of hardware'),
+        NodeSummary(EXPERIMENT, 'starts the controller, records a run and ends after N steps'),
+        NodeSummary(BAG_RECORDER, 'records topics into a bag'),
+        NodeSummary(BAG_PLAYER, 'publishes the messages of a bag with their timing'),
+    )
+}
+
+
+def _estimated(name: str, unit: str, words: str) -> tuple[Field, ...]:
+    """Return the fields of an estimated quantity and its two intervals."""
+    return (
+        Field(name, unit, words),
+        Field(f'{name}_lower', unit, f'lower end of the 95 % interval of {name}'),
+        Field(f'{name}_upper', unit, f'upper end of the 95 % interval of {name}'),
+        Field(f'{name}_least', unit, f'guaranteed lower bound on {name}'),
+        Field(f'{name}_most', unit, f'guaranteed upper bound on {name}'),
+    )
+
+
+TOPICS = {
+    topic.name: topic
+    for topic in (
+        Topic(
+            TACTILE,
+            JOINT_STATE_TYPE,
+            (SENSOR_DRIVER,),
+            (CONTACT_GEOMETRY,),
+            'a reading of the sensor in `fingertip`, stamped when it was read; NaN is no contact '
+            'or not measured',
+            (
+                Field('azimuth', 'rad', 'azimuth of the contact'),
+                Field('elevation', 'rad', 'elevation of the contact; pi/2 is the pole'),
+                Field('normal_force', 'N', 'force of the contact, in `effort`', array='effort'),
+            ),
+        ),
+        Topic(
+            JOINT_STATES,
+            JOINT_STATE_TYPE,
+            ('the finger', SIM_PLANT),
+            (CONTACT_GEOMETRY, PUSH_CONTROLLER),
+            'angles of the moving joints of the finger; the parameters `joint_names` name them',
+            (
+                Field('proximal_joint', 'rad', 'angle of the first moving joint'),
+                Field('distal_joint', 'rad', 'angle of the second moving joint'),
+            ),
+        ),
+        Topic(
+            CONTACT,
+            POSE_TYPE,
+            (CONTACT_GEOMETRY,),
+            (PUSH_CONTROLLER, SIM_PLANT),
+            'in `finger_disk`: the position is the contact point [m], the yaw is theta [rad]; '
+            'stamped as the reading; nothing is published without a contact',
+        ),
+        Topic(
+            GEOMETRY_STATE,
+            JOINT_STATE_TYPE,
+            (CONTACT_GEOMETRY,),
+            (),
+            'what became of each reading; published while somebody subscribes',
+            (
+                Field('azimuth', 'rad', 'azimuth of the reading'),
+                Field('elevation', 'rad', 'elevation of the reading'),
+                Field('joint_angle', 'rad', 'how far the joints had turned the finger tip'),
+                Field('theta', 'rad', 'angle of the pushed edge; NaN if the reading was refused'),
+                Field('refusal', '', 'why the reading was refused', 'tactile.REFUSALS'),
+            ),
+        ),
+        Topic(
+            COMMAND,
+            TWIST_TYPE,
+            (PUSH_CONTROLLER,),
+            ('the finger', SIM_PLANT, PUSH_CONTROLLER),
+            'in `finger_base`: `linear.x` [m/s]; nothing before the first contact, 0 when the '
+            'contact is lost',
+        ),
+        Topic(
+            CONTROLLER_STATE,
+            JOINT_STATE_TYPE,
+            (PUSH_CONTROLLER,),
+            (ACTIVE_SENSING,),
+            'everything that one control period used and gave',
+            (
+                Field('theta', 'rad', 'angle of the pushed edge'),
+                Field('theta_desired', 'rad', 'desired angle of the edge'),
+                Field('phi', 'rad', 'push angle; 90° is straight ahead'),
+                Field('v_x', 'm/s', 'commanded velocity; NaN if none was commanded'),
+                Field('kp', 'rad/rad', 'proportional gain of the law'),
+                Field('kd', 'rad/rad', 'derivative gain of the law'),
+                Field('silence', 's', 'time since the last contact'),
+                Field('saturated', '', '1 if phi is at a bound'),
+                Field('limited', '', '1 if v_x is at a bound'),
+                Field('finger_x', 'm', 'position of the finger across the belt'),
+                Field('state', '', 'what the controller does', 'control.STATES'),
+                Field('stop_reason', '', 'why the finger is stopped', 'control.STOP_REASONS'),
+                Field('ticks', '', 'control periods since activation'),
+                Field('ticks_lost', '', 'control periods that passed without a tick'),
+                Field('elapsed', 's', 'time since the last tick by a clock that cannot be set'),
+                Field('finger_age', 's', 'age of finger_x'),
+            ),
+        ),
+        Topic(
+            OBJECT_POSE,
+            UNCERTAIN_POSE_TYPE,
+            (ACTIVE_SENSING,),
+            (),
+            "in `finger_disk`: estimate of the object's centre of mass and orientation with its "
+            'covariance; stamped as the reading; nothing is published while nothing is known or '
+            'readings contradict the object',
+        ),
+        Topic(
+            SENSING_STATE,
+            JOINT_STATE_TYPE,
+            (ACTIVE_SENSING,),
+            (),
+            'the estimate after each control period, as of the last reading; NaN is unknown',
+            (
+                *_estimated('d', 'm', 'contact location along the edge'),
+                *_estimated('c', 'm', 'm_max / f_max of the support'),
+                *_estimated('mu_c', '', 'friction between finger and object'),
+                Field('theta', 'rad', 'angle of the edge without the noise of the readings'),
+                Field('edge', '', 'the likeliest edge, 0 from the first corner to the second'),
+                Field('edge_weight', '', 'probability of that edge'),
+                Field('surprise', '', 'how unexpected the readings are; 1 on average'),
+                Field(
+                    'contradiction',
+                    '',
+                    'how the readings contradict the object',
+                    'estimation.CONTRADICTIONS',
+                ),
+                Field('readings', '', 'readings used since everything was forgotten'),
+                Field('age', 's', 'age of the last reading'),
+            ),
+        ),
+        Topic(
+            SENSING_MARKERS,
+            MARKERS_TYPE,
+            (ACTIVE_SENSING,),
+            (),
+            'the outline at its estimated pose, the centre of mass along the 95 % and the '
+            'guaranteed interval; published while somebody subscribes',
+            recorded=False,
+        ),
+        Topic(
+            TRUE_POSE,
+            POSE_TYPE,
+            (SIM_PLANT,),
+            (),
+            "in `finger_disk`: the object's true centre of mass and orientation",
+        ),
+        Topic(
+            TRUE_STATE,
+            JOINT_STATE_TYPE,
+            (SIM_PLANT,),
+            (),
+            'what only the simulator knows',
+            (
+                Field('theta', 'rad', 'true angle of the edge; NaN without a contact'),
+                Field('d', 'm', 'true contact along the edge; NaN without a contact'),
+                Field('phi', 'rad', 'push angle of the finger as it moves'),
+                Field('mode', '', 'how the contact moves', 'mechanics.MODES'),
+                Field('v_x', 'm/s', 'velocity of the finger'),
+                Field('v_x_commanded', 'm/s', 'velocity that it was commanded'),
+                Field('finger_x', 'm', 'position of the finger across the belt'),
+                Field('belt_speed', 'm/s', 'speed of the belt'),
+                Field('belt_travel', 'm', 'how far the belt has moved'),
+            ),
+        ),
+        Topic(
+            MARKERS,
+            MARKERS_TYPE,
+            (SIM_PLANT,),
+            (),
+            'finger, object, belt, contact normal, friction cone and push ray',
+            recorded=False,
+        ),
+        Topic(
+            CLOCK,
+            'rosgraph_msgs/msg/Clock',
+            (SIM_PLANT, BAG_PLAYER),
+            tuple(NODES),
+            "simulated time, with the parameter `publish_clock`; a bag's time, with `clock`; nodes "
+            'with `use_sim_time` follow it',
+        ),
+        Topic(
+            DIAGNOSTICS,
+            'diagnostic_msgs/msg/DiagnosticArray',
+            tuple(NODES),
+            (),
+            'health of each node with ages, counts by reason and their rates; once a second, and '
+            'at once when the level changes',
+        ),
+        Topic(
+            PARAMETER_EVENTS,
+            'rcl_interfaces/msg/ParameterEvent',
+            tuple(NODES),
+            (),
+            "changes of a node's parameters, which every ROS 2 node publishes",
+        ),
+    )
+}
+RECORDED = tuple(name for name, topic in TOPICS.items() if topic.recorded)
+
+SERVICES = (
+    Service(
+        RESUME,
+        'std_srvs/srv/Trigger',
+        PUSH_CONTROLLER,
+        'lets the controller push again after a stop that waits for somebody to look',
+    ),
+    Service(PAUSE, 'std_srvs/srv/SetBool', BAG_PLAYER, 'pauses and resumes'),
+    Service(STEP, 'std_srvs/srv/Trigger', BAG_PLAYER, 'plays one message'),
+)
+
+
+def fingers(topics: Iterable[str], having: Collection[str]) -> dict[str, set[str]]:
+    """Return the fingers that a bag has topics of.
+
+    Parameters
+    ----------
+    topics : iterable of str
+        Full names of the bag's topics.
+    having : collection of str
+        Relative topic names; a finger counts if it has at least one of them.
+
+    Returns
+    -------
+    dict of str to set of str
+        The package's topics of each finger, by relative name, keyed by the finger's namespace
+        (``''`` or such as ``'/left'``), in the order of the first topic in `having`.
+    """
+    relative = sorted((name for name in TOPICS if name[0] != '/'), key=len, reverse=True)
+    found: dict[str, set[str]] = {}
+    present = []
+    for topic in topics:
+        # The longest name counts: `ground_truth/object_pose` is not `object_pose`.
+        own = next((name for name in relative if topic.endswith(f'/{name}')), None)
+        if own is not None:
+            namespace = topic.removesuffix(f'/{own}')
+            present.append((namespace, own))
+            if own in having:
+                found[namespace] = set()
+    for namespace, own in present:
+        if namespace in found:
+            found[namespace].add(own)
+    return found
+
+
+def node_in(namespace: str, node: str) -> str:
+    """Return the name by which a bag's recorded parameters know a node.
+
+    Parameters
+    ----------
+    namespace : str
+        Namespace of the finger (``''`` or such as ``'/left'``).
+    node : str
+        Name of the node.
+
+    Returns
+    -------
+    str
+        Full name without the leading slash.
+    """
+    return f'{namespace}/{node}'.removeprefix('/')

@@ -1,0 +1,118 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""The one place that knows topics, fields, frames and nodes."""
+
+import math
+import subprocess
+import sys
+from importlib.metadata import entry_points
+from pathlib import Path
+
+import pytest
+
+from tactile_push import interface
+from tactile_push.bags import BagReader
+from tactile_push.control import PushControl, PushLaw, tick_values
+from tactile_push.estimation import ActiveSensing, DiskEstimator, FingerMotion, sensing_values
+from tactile_push.interface import (
+    CONTACT,
+    CONTROLLER_STATE,
+    GEOMETRY_STATE,
+    NODES,
+    RECORDED,
+    SENSING_STATE,
+    TACTILE,
+    TOPICS,
+    fingers,
+    node_in,
+)
+from tactile_push.tactile import REFUSALS, Reading, reading_values
+
+PACKAGE = Path(interface.__file__).parent
+
+
+def test_it_needs_the_standard_library_alone():
+    command = [sys.executable, '-I', '-S', str(PACKAGE / 'interface.py')]
+    assert subprocess.run(command, check=False).returncode == 0
+
+
+def test_every_node_has_a_module_and_a_command():
+    modules = {file.stem for file in (PACKAGE / 'nodes').glob('*.py')} - {'__init__'}
+    commands = {
+        entry.name
+        for entry in entry_points(group='console_scripts')
+        if entry.value.startswith('tactile_push.nodes.')
+    }
+    assert set(NODES) == modules == commands
+
+
+def test_givers_and_takers_are_nodes_of_the_package_or_the_finger():
+    for topic in TOPICS.values():
+        assert {*topic.givers, *topic.takers} <= {*NODES, 'the finger'}
+
+
+def test_recorded_topics_are_all_but_what_follows_from_them():
+    assert set(TOPICS) - set(RECORDED) == {'markers', 'active_sensing/markers'}
+
+
+def test_fields_of_a_control_period():
+    law = PushLaw(0.05, 5.0, 0.0)
+    values = tick_values(PushControl(law, 0.005, 0.1).tick(0.0), law)
+    assert tuple(values) == TOPICS[CONTROLLER_STATE].field_names
+
+
+def test_fields_of_a_reading():
+    values = reading_values(Reading(0.0, 1.0), math.nan, 0.1, REFUSALS[0])
+    assert tuple(values) == TOPICS[GEOMETRY_STATE].field_names
+
+
+def test_fields_of_an_estimate():
+    estimator = DiskEstimator(0.0285, 0.0035, radius=0.0135)
+    sensing = ActiveSensing(estimator, FingerMotion(0.0, 0.0), 0.005, 0.3)
+    values = sensing_values(sensing.tick(0.0, 0.0, 0.0, 0.0), sensing)
+    assert tuple(values) == TOPICS[SENSING_STATE].field_names
+
+
+@pytest.mark.parametrize('name', ['block', 'stops'])
+def test_types_and_fields_of_recorded_topics(name):
+    with BagReader(Path(__file__).parent / 'data' / name) as bag:
+        seen = set()
+        for message in bag.messages():
+            topic = message.topic if message.topic in TOPICS else message.topic.lstrip('/')
+            if topic in seen or topic not in TOPICS:
+                continue
+            seen.add(topic)
+            assert bag.topics[message.topic].type_name == TOPICS[topic].type_name
+            if TOPICS[topic].fields:
+                assert tuple(bag.decode(message).name) == TOPICS[topic].field_names
+    assert {TACTILE, CONTACT, GEOMETRY_STATE, CONTROLLER_STATE} <= seen
+
+
+@pytest.mark.parametrize(
+    ('topics', 'having', 'found'),
+    [
+        (['/contact', '/tf'], {CONTACT}, {'': {CONTACT}}),
+        (
+            ['/left/contact', '/contact', '/left/tactile'],
+            {CONTACT},
+            {'/left': {CONTACT, TACTILE}, '': {CONTACT}},
+        ),
+        (['/tactile'], {CONTACT}, {}),
+        (['/a/b/tactile'], TOPICS, {'/a/b': {TACTILE}}),
+        (
+            ['/ground_truth/object_pose', '/contact_geometry/state'],
+            TOPICS,
+            {'': {'ground_truth/object_pose', GEOMETRY_STATE}},
+        ),
+        (['/my_contact', 'contact', '/clock', ''], TOPICS, {}),
+        ([], TOPICS, {}),
+    ],
+)
+def test_fingers_of_a_bag(topics, having, found):
+    assert fingers(topics, having) == found
+    assert list(fingers(topics, having)) == list(found)
+
+
+def test_name_of_a_node_in_recorded_parameters():
+    assert node_in('', 'sim_plant') == 'sim_plant'
+    assert node_in('/left', 'sim_plant') == 'left/sim_plant'
