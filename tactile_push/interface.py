@@ -200,7 +200,7 @@ TOPICS = {
             (
                 Field('azimuth', 'rad', 'azimuth of the contact'),
                 Field('elevation', 'rad', 'elevation of the contact; pi/2 is the pole'),
-                Field('normal_force', 'N', 'force of the contact, in `effort`', array='effort'),
+                Field('normal_force', 'N', 'normal force, in `effort` instead', array='effort'),
             ),
         ),
         Topic(
