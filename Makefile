@@ -1,5 +1,6 @@
-# make demo: run the demonstration; make test: run all tests; make bench: measure speeds;
-# make faults: inject every fault; make fuzz: spoil every input; make soak: run for long.
+# make demo: run the demonstration; make test: run all tests; make docs: build the documentation;
+# make bench: measure speeds; make faults: inject every fault; make fuzz: spoil every input;
+# make soak: run for long.
 # Each sets up .venv the first time.
 
 PYTHON ?= python3
@@ -9,13 +10,17 @@ READY := $(VENV)/ready
 TEST_READY := $(VENV)/ready-to-test
 INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable
 
-.PHONY: demo test lint bench faults fuzz soak clean
+.PHONY: demo test docs lint bench faults fuzz soak clean
 
 demo: $(READY)
 	$(BIN)/tactile_push demo
 
 test: lint
 	$(BIN)/python -m pytest
+
+docs: $(TEST_READY)
+	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet docs out/docs
+	@echo 'documentation: out/docs/index.html'
 
 bench: $(TEST_READY)
 	$(BIN)/python -m pytest benchmarks/bench_*.py -s --benchmark-columns=min,median,stddev,rounds
@@ -47,7 +52,7 @@ $(READY): setup.py setup.cfg pyproject.toml
 	touch $@
 
 $(TEST_READY): $(READY)
-	$(INSTALL) '.[test]'
+	$(INSTALL) '.[docs,test]'
 	touch $@
 
 clean:

@@ -43,6 +43,11 @@ setup(
         'zstandard>=0.22,<1',
     ],
     extras_require={
+        'docs': [
+            'myst-parser>=3,<6',
+            'sphinx>=7.2,<10',
+            'sphinx-rtd-theme>=2,<4',
+        ],
         'test': [
             'colcon-core>=0.18,<1',
             'colcon-python-setup-py>=0.2.9,<1',

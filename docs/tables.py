@@ -1,11 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Write docs/reference/topics.md from the code: `python docs/tables.py`."""
+"""Writes what the pages of docs/reference take from the code: `python docs/tables.py`."""
 
+import argparse
 import importlib
+import re
 from collections.abc import Iterable
 from pathlib import Path
 
+from tactile_push.cli import command_parser
 from tactile_push.interface import NODES, SERVICES, TOPICS, Field
 
 REFERENCE = Path(__file__).parent / 'reference'
@@ -83,7 +86,37 @@ def topics_page() -> str:
     return '\n'.join([NOTE, *parts])
 
 
-PAGES = {'topics.md': topics_page}
+def options_table(command: argparse.ArgumentParser) -> str:
+    """Return a command's arguments and options."""
+    rows = []
+    for action in command._actions[1:]:  # the first is --help
+        value = command._get_formatter()._format_args(action, action.dest.upper())
+        if not action.metavar:
+            value = '|'.join(action.choices or ())
+        names = ', '.join(action.option_strings)
+        words = f'{names} {value}'.strip() if action.nargs != 0 else names
+        meaning = action.help or ''
+        says_default = isinstance(command._get_formatter(), argparse.ArgumentDefaultsHelpFormatter)
+        if says_default and action.default not in (argparse.SUPPRESS, False):
+            meaning += f' (default: {action.default})'
+        rows.append(cell.replace('|', '\\|') for cell in (f'`{words}`', meaning))
+    return table(('option', 'meaning'), rows)
+
+
+def commands_page() -> str:
+    """Return the page about the commands with a current table in each command's section."""
+    page = (REFERENCE / 'commands.md').read_text(encoding='utf-8')
+    for name, command in command_parser()[1].choices.items():
+        before, heading, section = page.partition(f'\n## {name}\n')
+        old = re.search(r'(^\|.*\n)+', section, flags=re.MULTILINE)
+        if not (heading and old):
+            raise ValueError(f'commands.md: expected a section {name} with a table')
+        section = section[: old.start()] + options_table(command) + section[old.end() :]
+        page = before + heading + section
+    return page
+
+
+PAGES = {'topics.md': topics_page, 'commands.md': commands_page}
 
 
 def main() -> None:

@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
+import importlib.util
 import math
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -22,6 +24,8 @@ from tactile_push.nodes.sim_plant import SimPlant
 
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / 'README.md').read_text()
+PARAMETERS = (ROOT / 'docs' / 'reference' / 'parameters.md').read_text()
+SIMULATION = (ROOT / 'docs' / 'reference' / 'simulation.md').read_text()
 THEORY = (ROOT / 'docs' / 'theory.md').read_text()
 SAFETY = (ROOT / 'docs' / 'safety.md').read_text()
 WIRE_FORMAT = (ROOT / 'docs' / 'wire_format.md').read_text()
@@ -40,8 +44,8 @@ WIRE_FORMAT = (ROOT / 'docs' / 'wire_format.md').read_text()
         BagPlayer,
     ],
 )
-def test_readme_has_every_parameter_with_its_default_and_unit(node):
-    table = README.split(f'**{node.NAME}**')[1].split('\n\n')[1]
+def test_page_has_every_parameter_with_its_default_and_unit(node):
+    table = PARAMETERS.split(f'## {node.NAME}\n\n')[1].split('\n\n')[0]
     rows = [[cell.strip(' `') for cell in line.split('|')[1:-1]] for line in table.splitlines()[2:]]
     assert [row[0] for row in rows] == [parameter.name for parameter in node.PARAMETERS]
     for row, parameter in zip(rows, node.PARAMETERS, strict=True):
@@ -52,6 +56,30 @@ def test_readme_has_every_parameter_with_its_default_and_unit(node):
         else:
             assert shown == parameter.default
         assert row[2] == parameter.unit
+
+
+def test_documentation_builds_without_a_warning(tmp_path: Path):
+    for package in ('sphinx', 'myst_parser', 'sphinx_rtd_theme'):
+        if importlib.util.find_spec(package) is None:
+            pytest.skip(f'{package} is not installed; pip install "tactile_push[docs]" brings it')
+    command = [sys.executable, '-m', 'sphinx', '--fail-on-warning', '--keep-going', '--quiet']
+    done = subprocess.run(
+        [*command, ROOT / 'docs', tmp_path / 'html', '-d', tmp_path / 'doctrees'],
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    page = (tmp_path / 'html' / 'reference' / 'api' / 'mechanics.html').read_text()
+    assert 'Outline.polygon' in page
+    pages = (tmp_path / 'html').rglob('*.html')
+    loaded = [
+        address
+        for page in pages
+        for address in re.findall(
+            r'<(?:script|img|link rel="stylesheet")[^>]* (?:src|href)="(\w+:|//)', page.read_text()
+        )
+    ]
+    assert loaded == []  # the pages need no network either
 
 
 @pytest.mark.parametrize('file', sorted((ROOT / 'config').glob('*.yaml')), ids=lambda f: f.stem)
@@ -68,10 +96,11 @@ def test_parameter_files_name_parameters_of_their_nodes_within_their_ranges(file
 
 
 def test_examples_of_the_library_run_as_they_stand(capsys):
-    blocks = re.findall(r'```python\n(.*?)```', README, re.DOTALL)
+    blocks = re.findall(r'```python\n(.*?)```', SIMULATION, re.DOTALL)
     for block in blocks:
-        exec(compile(block, 'README.md', 'exec'), {})
+        exec(compile(block, 'simulation.md', 'exec'), {})
     assert len(blocks) == 2
+    assert re.findall(r'```python\n(.*?)```', README, re.DOTALL) == blocks[:1]
     printed = capsys.readouterr().out.splitlines()
     assert printed[0].startswith('Pose(x=')
     theta, d, mode = printed[1].split()

@@ -8,7 +8,10 @@ import signal
 import sys
 from collections.abc import Sequence
 from types import FrameType
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
+
+if TYPE_CHECKING:
+    from tactile_push.cli.arguments import Commands, Parser
 
 # Exit statuses as shells give them to programs that SIGINT and SIGPIPE end.
 INTERRUPTED, READ_ENOUGH = 130, 141
@@ -67,6 +70,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parse(arguments: Sequence[str] | None) -> tuple[str, argparse.Namespace]:
+    parser, commands = command_parser()
+    options, unknown = parser.parse_known_args(arguments)
+    name = vars(options).pop('command')  # which is no option
+    if unknown:
+        commands.choices[name].error(f'unrecognized arguments: {" ".join(unknown)}')
+    return name, options
+
+
+def command_parser() -> 'tuple[Parser, Commands]':
+    """Return the parser of the command line and its subcommands, for help and documentation."""
     # Imported here, so that an interrupt is silent from the beginning.
     from tactile_push.cli import (
         demo,
@@ -100,11 +113,7 @@ def _parse(arguments: Sequence[str] | None) -> tuple[str, argparse.Namespace]:
         report,
     ):
         command.add(commands)
-    options, unknown = parser.parse_known_args(arguments)
-    name = vars(options).pop('command')  # which is no option
-    if unknown:
-        commands.choices[name].error(f'unrecognized arguments: {" ".join(unknown)}')
-    return name, options
+    return parser, commands
 
 
 def _say_no_more() -> None:
