@@ -10,7 +10,7 @@ from typing import Any
 
 import yaml
 
-from tactile_push.bags.mcap_sources import BagError
+from tactile_push.bags.sources import BagError
 
 # libyaml's, where PyYAML has it, is ten times as fast.
 _LOADER = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)

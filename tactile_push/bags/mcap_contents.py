@@ -1,133 +1,92 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What there is in an MCAP file."""
+"""What is in an MCAP file: its topics, how many messages they have, and where these lie."""
 
 from collections import Counter
 from dataclasses import dataclass, field
 
 from mcap.opcode import Opcode
-from mcap.records import Channel, Metadata, Schema
+from mcap.records import Channel, McapRecord, Metadata, Schema
 
-from tactile_push.bags.mcap_records import MESSAGE, DamageError, parse, split
+from tactile_push.bags.mcap_records import HEADER, MESSAGE, DamageError, records, split
 
-# Metadata records that somebody asks for.
-NOTES = frozenset(['rosbag2', 'tactile_push'])
+# Names of the metadata records that are read.
+NOTES = ('rosbag2', 'tactile_push')
+
+# Records that chunks consist of. Some writers make no chunks; then they lie loose in the file.
+LOOSE = (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.MESSAGE)
 
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """Part of a file that is read at once.
-
-    Parameters
-    ----------
-    offset, length : int
-        Where it lies in the file.
-    start, end : int
-        First and last log time [ns].
-    channels : frozenset of int
-        Channels with messages in it; empty if that is not known.
-    is_chunk : bool
-        Whether it is a chunk, and not records without one around them.
-    """
+    """Bytes of a file that are read at once: a chunk, or records without a chunk around them."""
 
     offset: int
     length: int
-    start: int
-    end: int
-    channels: frozenset[int]
+    start: int  # first log time [ns]
+    end: int  # last log time [ns]
+    channels: frozenset[int]  # with messages in it; empty if unknown
     is_chunk: bool
 
 
 @dataclass
 class Contents:
-    """What there is in a file or in part of one.
+    """What is in a file; `end` is before `start` if there are no messages."""
 
-    Parameters
-    ----------
-    schemas : dict of int to Schema
-        By schema number.
-    channels : dict of int to Channel
-        By channel number.
-    counts : Counter of int
-        Messages by channel number.
-    start, end : int
-        First and last log time [ns]; end is before start if there are no messages.
-    pieces : list of Piece
-        Parts with messages, in the order of the file.
-    metadata : list of Metadata
-        Metadata records of rosbag2 and of this package.
-    """
-
-    schemas: dict[int, Schema] = field(default_factory=dict)
-    channels: dict[int, Channel] = field(default_factory=dict)
-    counts: Counter[int] = field(default_factory=Counter)
-    start: int = 2**64
-    end: int = -1
-    pieces: list[Piece] = field(default_factory=list)
-    metadata: list[Metadata] = field(default_factory=list)
+    schemas: dict[int, Schema] = field(default_factory=dict)  # by schema number
+    channels: dict[int, Channel] = field(default_factory=dict)  # by channel number
+    counts: Counter[int] = field(default_factory=Counter)  # messages by channel number
+    start: int = 2**64  # first log time [ns]
+    end: int = -1  # last log time [ns]
+    pieces: list[Piece] = field(default_factory=list)  # with messages, in the order of the file
+    metadata: list[Metadata] = field(default_factory=list)  # of rosbag2 and of this package
 
     def survey(self, data: bytes, offset: int, length: int, is_chunk: bool) -> int:
-        """Take in what there is in further records.
+        """Take in the records of a piece of the file; return how long it is.
 
-        Parameters
-        ----------
-        data : bytes
-            Schemas, channels and messages.
-        offset, length : int
-            Where they lie in the file, packed if it is a chunk.
-        is_chunk : bool
-            Whether they are the content of a chunk.
-
-        Returns
-        -------
-        int
-            How many of them make no sense, which only loose ones may.
-
-        Raises
-        ------
-        DamageError
-            If records of a chunk make no sense: then nothing of it is taken in.
+        A chunk is taken in whole or not at all, records without one up to the first that is
+        damaged or of another kind.
         """
         found = Contents(dict(self.schemas), dict(self.channels))
         counts = dict.fromkeys(self.channels, 0)
-        start, end, bad = found.start, found.end, 0
+        start, end, sound = found.start, found.end, 0
         unpack = MESSAGE.unpack_from
-        for opcode, first, last in split(data):
-            try:
-                if opcode != Opcode.MESSAGE:
-                    found._define(opcode, data[first:last])
-                    continue
-                if last - first < MESSAGE.size:
-                    raise DamageError('a message is cut off')
-                number, _, time, _ = unpack(data, first)
-                if number not in counts:
-                    if number not in found.channels:
-                        raise DamageError(f'a message of an unknown channel {number}')
-                    counts[number] = 0
-            except DamageError:
-                if is_chunk:
-                    raise
-                bad += 1
-                continue
-            counts[number] += 1
-            start = min(start, time)
-            end = max(end, time)
+        try:
+            for opcode, first, last in split(data):
+                if opcode == Opcode.MESSAGE:
+                    if last - first < MESSAGE.size:
+                        raise DamageError('a message is cut off')
+                    number, _, time, _ = unpack(data, first)
+                    if number not in counts:
+                        if number not in found.channels:
+                            raise DamageError(f'a message of an unknown channel {number}')
+                        counts[number] = 0
+                    counts[number] += 1
+                    start = min(start, time)
+                    end = max(end, time)
+                elif opcode in LOOSE:
+                    found._define(next(records(data[first - HEADER.size : last])))
+                elif not is_chunk:
+                    break
+                sound = last
+        except DamageError:
+            if is_chunk or not sound:
+                raise
+        length = length if is_chunk else sound
         self.schemas, self.channels = found.schemas, found.channels
         counts = {number: count for number, count in counts.items() if count}
         if counts:
             self.counts.update(counts)
             self.start, self.end = min(self.start, start), max(self.end, end)
             self.pieces.append(Piece(offset, length, start, end, frozenset(counts), is_chunk))
-        return bad
+        return length
 
-    def _define(self, opcode: int, body: bytes) -> None:
-        if opcode == Opcode.CHANNEL:
-            channel = parse(Channel, body)
-            if channel.schema_id and channel.schema_id not in self.schemas:
-                raise DamageError(f'{channel.topic} has an unknown schema')
-            if self.channels.setdefault(channel.id, channel) != channel:
-                raise DamageError(f'channel {channel.id} is not what it was')
-        elif opcode == Opcode.SCHEMA:
-            schema = parse(Schema, body)
-            if self.schemas.setdefault(schema.id, schema) != schema:
-                raise DamageError(f'schema {schema.id} is not what it was')
+    def _define(self, record: McapRecord) -> None:
+        if isinstance(record, Schema):
+            if self.schemas.setdefault(record.id, record) != record:
+                raise DamageError(f'schema {record.id} is defined twice')
+        elif isinstance(record, Channel):
+            if record.schema_id and record.schema_id not in self.schemas:
+                raise DamageError(f'{record.topic} has an unknown schema')
+            if self.channels.setdefault(record.id, record) != record:
+                raise DamageError(f'channel {record.id} is defined twice')

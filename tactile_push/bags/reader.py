@@ -27,8 +27,8 @@ from tactile_push.bags.bag_files import (
 from tactile_push.bags.mcap_contents import Piece
 from tactile_push.bags.mcap_file import McapFile, Message
 from tactile_push.bags.mcap_records import DamageError
-from tactile_push.bags.mcap_sources import BagError
 from tactile_push.bags.merge import Part, in_order
+from tactile_push.bags.sources import BagError
 
 _LOGGER = logging.getLogger('tactile_push.bags')
 

@@ -7,8 +7,8 @@ import os
 import numpy as np
 import numpy.typing as npt
 
-from tactile_push.bags.mcap_sources import BagError
 from tactile_push.bags.reader import BagReader
+from tactile_push.bags.sources import BagError
 
 _JOINT_STATE = 'sensor_msgs/msg/JointState'
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Bytes of a bag's files by their place, of files that rosbag2 has compressed too."""
+"""Bytes of a bag's files by their place; files that rosbag2 has compressed are decompressed."""
 
 import os
 from pathlib import Path
@@ -20,58 +20,36 @@ class BagError(Exception):
 
 
 class Source(Protocol):
-    """A file that is read at any place."""
+    """A file that is read at any place; after `close`, the next read opens it again."""
 
     @property
     def size(self) -> int | None:
-        """Size [bytes]; None if that is not known."""
+        """Size [bytes]; None if it is unknown."""
 
     def read(self, offset: int, length: int) -> bytes:
         """Return the bytes at a place, fewer where the file ends."""
 
     def close(self) -> None:
-        """Close the file; it is opened again when it is read."""
+        """Close the file."""
 
 
 def open_source(path: Path) -> Source:
-    """Open a file of a bag.
-
-    Parameters
-    ----------
-    path : Path
-        An MCAP file, or one that rosbag2 has compressed (``.mcap.zstd``).
-
-    Returns
-    -------
-    Source
-        Its bytes, uncompressed; `size` is None if that is not known.
-
-    Raises
-    ------
-    BagError
-        If it is not there or must not be read.
-    """
-    return ZstdSource(path) if path.suffix == '.zstd' else FileSource(path)
+    """Open an MCAP file, or one that rosbag2 has compressed (``.mcap.zstd``)."""
+    return _ZstdSource(path) if path.suffix == '.zstd' else _FileSource(path)
 
 
 def _open(path: Path) -> IO[bytes]:
     try:
-        # A pipe would wait for its other end.
+        # Opening a pipe would block until somebody writes to it.
         if path.exists() and not path.is_file():
-            raise BagError(f'{path}: expected an MCAP file, and this is no file')
+            raise BagError(f'{path}: expected an MCAP file, got something that is not a file')
         return path.open('rb')
     except (OSError, ValueError) as error:
         raise BagError(f'{path}: {getattr(error, "strerror", None) or error}') from None
 
 
-class FileSource:
-    """A file as it is.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    """
+class _FileSource:
+    """A file as it is."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -79,10 +57,9 @@ class FileSource:
         self.size = os.fstat(self._stream.fileno()).st_size
 
     def read(self, offset: int, length: int) -> bytes:
-        """Return the bytes at a place, fewer where the file ends."""
         if self._stream is None:
             self._stream = _open(self._path)
-        # A damaged length would be allocated before the file turns out to be shorter.
+        # Python allocates the whole length before it reads, so a damaged length must not reach it.
         length = min(length, self.size - offset)
         if length <= 0:
             return b''
@@ -93,20 +70,13 @@ class FileSource:
             raise BagError(f'{self._path}: {error.strerror or error}') from None
 
     def close(self) -> None:
-        """Close the file; it is opened again when it is read."""
         if self._stream is not None:
             self._stream.close()
         self._stream = None
 
 
-class ZstdSource:
-    """A file in zstd: quick forwards, from its beginning again backwards.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    """
+class _ZstdSource:
+    """A file in zstd: fast to read forwards; going back starts again at its beginning."""
 
     size = None
 
@@ -117,7 +87,6 @@ class ZstdSource:
         self._rewind()
 
     def read(self, offset: int, length: int) -> bytes:
-        """Return the bytes at a place, fewer where the file ends or its zstd breaks off."""
         if self._file is None or offset < self._position:
             self._rewind()
         while self._position < offset:
@@ -130,7 +99,6 @@ class ZstdSource:
         return b''.join(parts)
 
     def close(self) -> None:
-        """Close the file; it is opened again when it is read."""
         if self._file is not None:
             self._file.close()
         self._file = None
