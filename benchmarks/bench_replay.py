@@ -22,7 +22,7 @@ from tactile_push.nodes.ros.messages import (
     named_values,
     velocity_command,
 )
-from tactile_push.parameters import contact_geometry, push_controller, values_of
+from tactile_push.parameters import contact_geometry, push_controller
 from tactile_push.pipeline.orientation import yaw_of_quaternion
 from tactile_push.pipeline.stamps import epoch_of, seconds_since
 from tactile_push.replay import replay
@@ -47,8 +47,8 @@ TOPICS = {
 def bag(tmp_path_factory):
     """Write an hour."""
     folder = tmp_path_factory.mktemp('bags') / 'hour'
-    finder = contact_geometry.make_finder(values_of(contact_geometry.PARAMETERS, {}))
-    control = push_controller.make_control(values_of(push_controller.PARAMETERS, {}))
+    finder = contact_geometry.make_finder(contact_geometry.ContactGeometryParameters())
+    control = push_controller.make_control(push_controller.PushControllerParameters())
     epoch = epoch_of(BEGIN)
     message = ContactMessage()
     with BagWriter(folder) as writer:

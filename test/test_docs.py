@@ -47,8 +47,8 @@ WIRE_FORMAT = (ROOT / 'docs' / 'wire_format.md').read_text()
 def test_page_has_every_parameter_with_its_default_and_unit(node):
     table = PARAMETERS.split(f'## {node.NAME}\n\n')[1].split('\n\n')[0]
     rows = [[cell.strip(' `') for cell in line.split('|')[1:-1]] for line in table.splitlines()[2:]]
-    assert [row[0] for row in rows] == [parameter.name for parameter in node.PARAMETERS]
-    for row, parameter in zip(rows, node.PARAMETERS, strict=True):
+    assert [row[0] for row in rows] == [parameter.name for parameter in node.PARAMETERS.declared()]
+    for row, parameter in zip(rows, node.PARAMETERS.declared(), strict=True):
         assert len(row) == 4
         shown = yaml.safe_load(row[1]) or type(parameter.default)()
         if isinstance(parameter.default, float):
@@ -88,7 +88,7 @@ def test_parameter_files_name_parameters_of_their_nodes_within_their_ranges(file
         node.NAME: node for node in (ContactGeometry, PushController, ActiveSensingNode, SimPlant)
     }
     for key, content in yaml.safe_load(file.read_text()).items():
-        declared = {p.name: p for p in known[key.removeprefix('/**/')].PARAMETERS}
+        declared = {p.name: p for p in known[key.removeprefix('/**/')].PARAMETERS.declared()}
         for name, value in content['ros__parameters'].items():
             assert type(value) is type(declared[name].default)
             if isinstance(value, float):

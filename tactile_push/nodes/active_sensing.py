@@ -22,7 +22,7 @@ from tactile_push.nodes.ros.node_time import NodeTime
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED
-from tactile_push.parameters.active_sensing import PARAMETERS, make_sensing
+from tactile_push.parameters.active_sensing import ActiveSensingParameters, make_sensing
 
 PATIENCE = 1.0  # without a control period for longer it says so [s]
 
@@ -38,7 +38,7 @@ class ActiveSensingNode(Node):
     """
 
     NAME = 'active_sensing'
-    PARAMETERS = PARAMETERS
+    PARAMETERS = ActiveSensingParameters
 
     def __init__(self) -> None:
         super().__init__(self.NAME)

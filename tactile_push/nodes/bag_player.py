@@ -16,7 +16,7 @@ from tactile_push.bags.reader import BagError, BagReader
 from tactile_push.nodes.ros.diagnostics import OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
-from tactile_push.parameters import Parameter
+from tactile_push.parameters import BagPlayerParameters
 from tactile_push.playing.player import Player
 from tactile_push.playing.schedule import CLOCK, Part, part_of, topic_in_bag
 from tactile_push.playing.terminal import Terminal
@@ -30,44 +30,7 @@ class BagPlayer(Node):
     """Node: publishes the messages of a bag when they are due, and ends with the bag."""
 
     NAME = 'bag_player'
-    PARAMETERS = (
-        Parameter('bag', '', '', 'folder of the bag, or an .mcap file', read_only=True),
-        Parameter(
-            'rate', 1.0, 's/s', "how fast the bag's time goes by", 0.001, 1000.0, read_only=True
-        ),
-        Parameter(
-            'start',
-            0.0,
-            's',
-            'where to begin, from the beginning of the bag',
-            0.0,
-            1e9,
-            read_only=True,
-        ),
-        Parameter(
-            'duration',
-            0.0,
-            's',
-            'how much to play from there; 0 is to the end',
-            0.0,
-            1e9,
-            read_only=True,
-        ),
-        Parameter('loop', False, '', 'start over at the end, for ever', read_only=True),
-        Parameter(
-            'clock',
-            0.0,
-            'Hz',
-            "how often /clock is published by the bag's time, besides before each message; 0 is "
-            'not at all',
-            0.0,
-            10000.0,
-            read_only=True,
-        ),
-        Parameter('topics', [], '', 'topics to play; all if there are none', read_only=True),
-        Parameter('remap', [], '', 'new names of topics, each as OLD:=NEW', read_only=True),
-        Parameter('start_paused', False, '', 'wait for ~/pause or ~/step', read_only=True),
-    )
+    PARAMETERS = BagPlayerParameters
 
     def __init__(self) -> None:
         super().__init__(self.NAME)

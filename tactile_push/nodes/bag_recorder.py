@@ -10,12 +10,10 @@ from datetime import datetime
 from rclpy.node import Node
 
 from tactile_push.bags import BagWriter
-from tactile_push.bags.writer import COMPRESSIONS
-from tactile_push.interface import RECORDED
 from tactile_push.nodes.ros.diagnostics import OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
-from tactile_push.parameters import Parameter
+from tactile_push.parameters import BagRecorderParameters
 from tactile_push.recording.recording import Recording
 
 
@@ -27,45 +25,7 @@ class BagRecorder(Node):
     """
 
     NAME = 'bag_recorder'
-    PARAMETERS = (
-        Parameter(
-            'output',
-            '',
-            '',
-            'folder that the bag makes, not there yet; without one, tactile_push_ and the date',
-            read_only=True,
-        ),
-        Parameter('topics', list(RECORDED), '', 'topics to record if they come up', read_only=True),
-        Parameter(
-            'all', False, '', 'record all topics instead that are not hidden', read_only=True
-        ),
-        Parameter(
-            'compression',
-            'zstd',
-            '',
-            'of the chunks of the file',
-            choices=tuple(COMPRESSIONS),
-            read_only=True,
-        ),
-        Parameter(
-            'max_size',
-            0,
-            'B',
-            'a file that has so many bytes is followed by another; 0 for one file',
-            0,
-            10**15,
-            read_only=True,
-        ),
-        Parameter(
-            'max_duration',
-            0.0,
-            's',
-            'so is a file that is so long; 0 for one file',
-            0.0,
-            1e9,
-            read_only=True,
-        ),
-    )
+    PARAMETERS = BagRecorderParameters
 
     def __init__(self) -> None:
         super().__init__(self.NAME)

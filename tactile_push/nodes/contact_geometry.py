@@ -17,7 +17,11 @@ from tactile_push.nodes.ros.node_time import NodeTime
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED, SENSOR_DATA
-from tactile_push.parameters.contact_geometry import PARAMETERS, make_finder, take_values
+from tactile_push.parameters.contact_geometry import (
+    ContactGeometryParameters,
+    make_finder,
+    take_values,
+)
 from tactile_push.tactile import NO_CONTACT, Reading, ReadingRejectedError, reading_values
 
 PATIENCE = 0.5  # without a reading, or without one that is of use, before it is an error [s]
@@ -44,7 +48,7 @@ class ContactGeometry(Node):
     """
 
     NAME = 'contact_geometry'
-    PARAMETERS = PARAMETERS
+    PARAMETERS = ContactGeometryParameters
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
@@ -68,8 +72,9 @@ class ContactGeometry(Node):
         self.create_subscription(JointState, 'tactile', self._on_tactile, SENSOR_DATA)
         self._diagnostics = Diagnostics(self, self._health, lambda: self._counted)
 
-    def _take_parameters(self) -> None:
-        take_values(self._finder, self._settings)
+    def _take_parameters(self, settings: ContactGeometryParameters) -> None:
+        self._settings = settings
+        take_values(self._finder, settings)
 
     def _on_joint_states(self, message: JointState) -> None:
         names, position = message.name, message.position

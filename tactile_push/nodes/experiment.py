@@ -23,7 +23,7 @@ from tactile_push.interface import (
 )
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
-from tactile_push.parameters import Parameter
+from tactile_push.parameters import ExperimentParameters
 from tactile_push.recording.recording import Recording
 
 # Without these recorded from the beginning no experiment starts.
@@ -38,10 +38,7 @@ class Experiment(Node):
     """
 
     NAME = 'experiment'
-    PARAMETERS = (
-        Parameter('bag', '', '', 'folder that the bag makes, not there yet', read_only=True),
-        Parameter('steps', 600, '', 'control periods to run', 1, 1000000000, read_only=True),
-    )
+    PARAMETERS = ExperimentParameters
 
     def __init__(self) -> None:
         super().__init__(self.NAME)

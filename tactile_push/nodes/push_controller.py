@@ -33,10 +33,10 @@ from tactile_push.nodes.ros.node_time import NodeTime
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED, SENSOR_DATA
-from tactile_push.parameters.finger import make_finger
 from tactile_push.parameters.push_controller import (
-    PARAMETERS,
+    PushControllerParameters,
     make_control,
+    make_finger,
     take_values,
 )
 from tactile_push.pipeline.orientation import yaw_of_quaternion
@@ -58,7 +58,7 @@ class PushController(ManagedNode):
     """
 
     NAME = 'push_controller'
-    PARAMETERS = PARAMETERS
+    PARAMETERS = PushControllerParameters
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
@@ -139,8 +139,9 @@ class PushController(ManagedNode):
         self._jump_handle.unregister()
         super().destroy_node()
 
-    def _take_parameters(self) -> None:
-        take_values(self._control, self._settings)
+    def _take_parameters(self, settings: PushControllerParameters) -> None:
+        self._settings = settings
+        take_values(self._control, settings)
 
     def _start_timer(self) -> None:
         """Start to tick, on a clock that nobody can set unless time is simulated."""

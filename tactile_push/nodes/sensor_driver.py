@@ -17,7 +17,7 @@ from tactile_push.nodes.ros.managed import ManagedNode
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED
-from tactile_push.parameters import Parameter
+from tactile_push.parameters import SensorDriverParameters
 from tactile_push.tactile import Reading
 
 
@@ -25,34 +25,11 @@ class SensorDriver(ManagedNode):
     """Managed node: device bytes in, `tactile` out."""
 
     NAME = 'sensor_driver'
-    PARAMETERS = (
-        Parameter(
-            'device',
-            'socket://127.0.0.1:54320',
-            '',
-            'where the sensor is: /dev/ttyUSB0, a pseudo terminal, socket://host:port, or any '
-            'other URL of pyserial',
-            read_only=True,
-        ),
-        Parameter(
-            'baud_rate', 115200, 'bit/s', 'speed of a serial line', 50, 4000000, read_only=True
-        ),
-        Parameter(
-            'silence_timeout',
-            0.3,
-            's',
-            'without a reading for so long is an error, by the steady clock',
-            0.01,
-            60.0,
-        ),
-        Parameter(
-            'autostart', True, '', 'configure and activate without a manager', read_only=True
-        ),
-    )
+    PARAMETERS = SensorDriverParameters
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
-        self._settings = declare(self, self.PARAMETERS)
+        self._settings = declare(self, self.PARAMETERS, self._take_parameters)
         try:
             check_url(self._settings.device)
         except ValueError as error:
@@ -107,6 +84,9 @@ class SensorDriver(ManagedNode):
         """Let go of the device and end."""
         self._reader.stop()
         super().destroy_node()
+
+    def _take_parameters(self, settings: SensorDriverParameters) -> None:
+        self._settings = settings
 
     def _publish(self, readings: list[Reading], stamp: int) -> None:
         """Publish what one read gave; stamps grow by 1 ns up to the time of the read."""

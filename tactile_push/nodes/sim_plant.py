@@ -6,14 +6,11 @@ import math
 import sys
 import time
 from collections import Counter
-from types import SimpleNamespace
 
 from geometry_msgs.msg import PoseStamped, TwistStamped
-from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock as NodeClock
 from rclpy.clock_type import ClockType
 from rclpy.node import Node
-from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
@@ -26,7 +23,8 @@ from tactile_push.nodes.ros.markers import rig_markers
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED
-from tactile_push.parameters.sim_plant import PARAMETERS, faults, faults_on, rig_config
+from tactile_push.parameters.rig import faults, rig_config
+from tactile_push.parameters.sim_plant import SimPlantParameters, faults_on
 from tactile_push.pipeline.orientation import quaternion_of_yaw
 from tactile_push.simulation import Readout, Rig, serve
 from tactile_push.simulation.pace import Pace
@@ -43,11 +41,11 @@ class SimPlant(Node):
     """Node: belt, object, finger and sensor."""
 
     NAME = 'sim_plant'
-    PARAMETERS = PARAMETERS
+    PARAMETERS = SimPlantParameters
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
-        self._settings = p = declare(self, self.PARAMETERS, self._take_parameters)
+        self._settings = p = declare(self, self.PARAMETERS, self._take_parameters, faults)
         if p.real_time_factor != 1.0 and not p.publish_clock:
             raise ConfigurationError(
                 'parameter real_time_factor: expected 1.0 unless publish_clock is true, '
@@ -79,7 +77,6 @@ class SimPlant(Node):
         self._last_command: float | None = None
         self._commanders = 0
         self._create_topics()
-        self.add_on_set_parameters_callback(self._check_parameters)
         self._diagnostics = Diagnostics(self, self._health, lambda: self._counts)
         steady_clock = NodeClock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(self._period / p.real_time_factor, self._on_timer, clock=steady_clock)
@@ -90,16 +87,9 @@ class SimPlant(Node):
         self._device.close()
         super().destroy_node()
 
-    def _check_parameters(self, proposed: list[Parameter]) -> SetParametersResult:
-        changes = {parameter.name: parameter.value for parameter in proposed}
-        try:
-            faults(SimpleNamespace(**(vars(self._settings) | changes)))
-        except ValueError as error:
-            return SetParametersResult(successful=False, reason=str(error))
-        return SetParametersResult(successful=True)
-
-    def _take_parameters(self) -> None:
-        self._rig.faults = faults(self._settings)
+    def _take_parameters(self, settings: SimPlantParameters) -> None:
+        self._settings = settings
+        self._rig.faults = faults(settings)
         self._readout.sensor = self._rig.faults.sensor
 
     def _create_topics(self) -> None:

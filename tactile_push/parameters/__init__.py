@@ -1,8 +1,43 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What can be set, for nodes that run and for runs without nodes."""
+"""The parameters of the nodes, for nodes that run and for runs without nodes."""
 
+from tactile_push import interface
+from tactile_push.parameters.active_sensing import ActiveSensingParameters
+from tactile_push.parameters.bag_player import BagPlayerParameters
+from tactile_push.parameters.bag_recorder import BagRecorderParameters
 from tactile_push.parameters.config_file import config_file
-from tactile_push.parameters.parameter import Parameter, values_of
+from tactile_push.parameters.contact_geometry import ContactGeometryParameters
+from tactile_push.parameters.experiment import ExperimentParameters
+from tactile_push.parameters.parameter import NodeParameters, Parameter, parameter
+from tactile_push.parameters.push_controller import PushControllerParameters
+from tactile_push.parameters.sensor_driver import SensorDriverParameters
+from tactile_push.parameters.sim_plant import SimPlantParameters
 
-__all__ = ['Parameter', 'config_file', 'values_of']
+PARAMETERS: dict[str, type[NodeParameters]] = {
+    interface.SENSOR_DRIVER: SensorDriverParameters,
+    interface.CONTACT_GEOMETRY: ContactGeometryParameters,
+    interface.PUSH_CONTROLLER: PushControllerParameters,
+    interface.ACTIVE_SENSING: ActiveSensingParameters,
+    interface.SIM_PLANT: SimPlantParameters,
+    interface.EXPERIMENT: ExperimentParameters,
+    interface.BAG_RECORDER: BagRecorderParameters,
+    interface.BAG_PLAYER: BagPlayerParameters,
+}
+"""The parameters of each node by the name of its executable."""
+
+__all__ = [
+    'PARAMETERS',
+    'ActiveSensingParameters',
+    'BagPlayerParameters',
+    'BagRecorderParameters',
+    'ContactGeometryParameters',
+    'ExperimentParameters',
+    'NodeParameters',
+    'Parameter',
+    'PushControllerParameters',
+    'SensorDriverParameters',
+    'SimPlantParameters',
+    'config_file',
+    'parameter',
+]

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of `active_sensing`, and what they make."""
+"""The parameters of `active_sensing`, and the estimator that they make."""
 
 import math
-from types import SimpleNamespace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,124 +14,95 @@ from tactile_push.estimation import (
     ObjectEstimator,
     edges_of,
 )
-from tactile_push.parameters.parameter import Parameter
+from tactile_push.parameters import shared
+from tactile_push.parameters.parameter import NodeParameters, parameter
 
-OBJECT = (
-    Parameter(
-        'vertices',
-        [-0.025, -0.02375, 0.025, -0.02375, 0.025, 0.02375, -0.025, 0.02375],
+BLOCK = [-0.025, -0.02375, 0.025, -0.02375, 0.025, 0.02375, -0.025, 0.02375]
+
+
+@dataclass(frozen=True)
+class ActiveSensingParameters(NodeParameters):
+    """What is known of the object beforehand, and of the rig."""
+
+    vertices: list[float] = parameter(
+        BLOCK,
         'm',
         'outline of the object: x, y of every corner from its centre of mass, counterclockwise',
         read_only=True,
-    ),
-    Parameter(
-        'edge',
+    )
+    edge: int = parameter(
         -1,
         '',
         'the pushed edge if it is known, 0 from the first corner to the second; -1 if not',
         -1,
         1000,
         read_only=True,
-    ),
-    Parameter(
-        'disk_radius',
+    )
+    disk_radius: float = parameter(
         0.0,
         'm',
         'radius of a round object, which has no vertices; 0 if it is not round',
         0.0,
         1.0,
         read_only=True,
-    ),
-    Parameter(
-        'l_share',
+    )
+    l_share: float = parameter(
         0.085,
         '',
         'standard deviation of the distance from an edge to the centre of mass, as a share of it',
         0.0,
         0.3,
         read_only=True,
-    ),
-    Parameter(
-        'c_min', 0.005, 'm', 'least c = m_max / f_max that is possible', 1e-4, 1.0, read_only=True
-    ),
-    Parameter(
-        'c_max', 0.036, 'm', 'largest c = m_max / f_max that is possible', 1e-4, 1.0, read_only=True
-    ),
-    Parameter(
-        'mu_c_min',
-        0.0,
-        '',
-        'least friction between finger and object that is possible',
-        0.0,
-        read_only=True,
-    ),
-    Parameter(
-        'mu_c_max',
+    )
+    c_min: float = parameter(
+        0.005, 'm', 'least c = m_max / f_max that is possible', 1e-4, 1.0, read_only=True
+    )
+    c_max: float = parameter(
+        0.036, 'm', 'largest c = m_max / f_max that is possible', 1e-4, 1.0, read_only=True
+    )
+    mu_c_min: float = parameter(
+        0.0, '', 'least friction between finger and object that is possible', 0.0, read_only=True
+    )
+    mu_c_max: float = parameter(
         math.inf,
         '',
         'largest friction between finger and object that is possible, .inf too',
         0.0,
         read_only=True,
-    ),
-)
-RIG = (
-    Parameter(
-        'noise',
-        0.0035,
-        'rad',
-        'standard deviation of the readings of theta',
-        1e-5,
-        0.5,
-        read_only=True,
-    ),
-    Parameter(
-        'finger_radius',
-        0.0135,
-        'm',
-        "effective radius of the finger's disk",
-        1e-4,
-        1.0,
-        read_only=True,
-    ),
-    Parameter(
-        'finger_lag',
+    )
+    noise: float = parameter(
+        0.0035, 'rad', 'standard deviation of the readings of theta', 1e-5, 0.5, read_only=True
+    )
+    finger_radius: float = shared.finger_radius
+    finger_lag: float = parameter(
         0.0,
         's',
-        'time constant by which the finger follows its commands',
+        'time constant with which the finger follows its commands',
         0.0,
         10.0,
         read_only=True,
-    ),
-    Parameter(
-        'finger_delay',
-        0.0,
-        's',
-        'time before a command has any effect on the finger',
-        0.0,
-        10.0,
-        read_only=True,
-    ),
-    Parameter('belt_speed', 0.005, 'm/s', 'speed of the belt', 1e-5, 1.0, read_only=True),
-    Parameter(
-        'contact_timeout',
+    )
+    finger_delay: float = parameter(
+        0.0, 's', 'time before a command has any effect on the finger', 0.0, 10.0, read_only=True
+    )
+    belt_speed: float = shared.belt_speed
+    contact_timeout: float = parameter(
         0.3,
         's',
-        'without a reading or a control period for longer all that was known is forgotten',
+        'after longer without a reading or a control period the estimate starts over',
         0.01,
         10.0,
         read_only=True,
-    ),
-)
-PARAMETERS = (*OBJECT, *RIG)
+    )
 
 
-def make_sensing(p: SimpleNamespace) -> ActiveSensing:
+def make_sensing(p: ActiveSensingParameters) -> ActiveSensing:
     """Make active sensing from the values of the parameters.
 
     Parameters
     ----------
-    p : SimpleNamespace
-        The values by name.
+    p : ActiveSensingParameters
+        The values.
 
     Returns
     -------

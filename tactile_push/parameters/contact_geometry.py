@@ -1,88 +1,83 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Parameters of `contact_geometry`, and what is made of them."""
+"""The parameters of `contact_geometry`, and the contact finder that they make."""
 
-from types import SimpleNamespace
+import math
+from dataclasses import dataclass
 
-from tactile_push.parameters.parameter import Parameter
+from tactile_push.parameters import shared
+from tactile_push.parameters.parameter import NodeParameters, parameter
 from tactile_push.tactile import JUMP_TOLERANCE, MAX_THETA_RATE, ContactFinder
 
-PARAMETERS = (
-    Parameter('finger_radius', 0.0135, 'm', "effective radius of the finger's disk", 1e-4, 1.0),
-    Parameter(
-        'use_joint_states',
+
+@dataclass(frozen=True)
+class ContactGeometryParameters(NodeParameters):
+    """The finger tip, and which readings to believe."""
+
+    finger_radius: float = parameter(
+        shared.FINGER_RADIUS, 'm', "effective radius of the finger's disk", 1e-4, 1.0
+    )
+    use_joint_states: bool = parameter(
         True,
         '',
         'take the direction of the finger tip from joint_states; otherwise it is mount_angle',
         read_only=True,
-    ),
-    Parameter(
-        'mount_angle',
-        1.5707963267948966,
+    )
+    mount_angle: float = parameter(
+        shared.MOUNT_ANGLE,
         'rad',
         'angle of the finger tip in finger_base at joint angles zero',
         -6.3,
         6.3,
-    ),
-    Parameter(
-        'joint_names',
-        ['proximal_joint', 'distal_joint'],
+    )
+    joint_names: list[str] = parameter(
+        shared.JOINT_NAMES,
         '',
         'the moving joints in joint_states whose angles add up to the direction of the tip',
         read_only=True,
-    ),
-    Parameter(
-        'joint_state_timeout',
-        0.1,
-        's',
-        'largest time between a reading and the joint state used for it',
-        0.001,
-        10.0,
-    ),
-    Parameter(
-        'max_out_of_plane',
+    )
+    joint_state_timeout: float = parameter(
+        0.1, 's', 'longest time between a reading and the joint state used for it', 0.001, 10.0
+    )
+    max_out_of_plane: float = parameter(
         0.2,
         '',
         'largest size of cos(elevation) sin(azimuth), by which the direction of a contact '
         'sticks out of the plane of motion',
         0.001,
         1.0,
-    ),
-    Parameter(
-        'detectable_range',
-        1.5707963267948966,
+    )
+    detectable_range: float = parameter(
+        math.pi / 2.0,
         'rad',
         'largest angle between the pole and a contact that the sensor detects properly; pi/2 '
         'is the whole hemisphere',
         0.01,
         1.6,
-    ),
-    Parameter(
-        'max_theta_rate',
+    )
+    max_theta_rate: float = parameter(
         MAX_THETA_RATE,
         'rad/s',
         'how fast theta can turn; it grows with the speed of the belt',
         0.01,
         1000.0,
-    ),
-    Parameter(
-        'jump_tolerance',
+    )
+    jump_tolerance: float = parameter(
         JUMP_TOLERANCE,
         'rad',
         'how far two readings of the same theta may differ; pi refuses no jump',
         0.001,
         3.2,
-    ),
-)
+    )
 
 
-def make_finder(p: SimpleNamespace) -> ContactFinder:
+def make_finder(p: ContactGeometryParameters) -> ContactFinder:
     """Make the contact finder from the values of the parameters.
 
     Parameters
     ----------
-    p : SimpleNamespace
-        The values by name.
+    p : ContactGeometryParameters
+        The values.
 
     Returns
     -------
@@ -102,15 +97,15 @@ def make_finder(p: SimpleNamespace) -> ContactFinder:
     return finder
 
 
-def take_values(finder: ContactFinder, p: SimpleNamespace) -> None:
-    """Let the finder know of values that may change while it runs.
+def take_values(finder: ContactFinder, p: ContactGeometryParameters) -> None:
+    """Set the finder's values that may change while it runs.
 
     Parameters
     ----------
     finder : ContactFinder
         The finder.
-    p : SimpleNamespace
-        The values by name.
+    p : ContactGeometryParameters
+        The values.
     """
     finder.radius = p.finger_radius
     finder.max_out_of_plane = p.max_out_of_plane

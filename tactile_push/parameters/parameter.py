@@ -1,68 +1,73 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What can be set of a node."""
+"""Declares a node's parameters: one frozen dataclass a node, one field a parameter."""
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from types import SimpleNamespace
-from typing import Any
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any, TypeVar, cast
+
+T = TypeVar('T')
+P = TypeVar('P', bound='NodeParameters')
 
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter of a node.
+    """What is known of one parameter of a node.
 
     Parameters
     ----------
     name : str
-        Its name.
+        Name.
     default : bool, int, float, str or list
-        Its value unless somebody says otherwise; the type of all its values.
+        Value unless somebody gives another; every value has its type.
     unit : str
         Unit for people, '' if there is none.
-    description : str
-        What it is, in a few words.
+    words : str
+        What the parameter is.
     lower, upper : float or int, optional
         Closed range of a number; a whole number needs both.
     choices : tuple of str, optional
         All values that a text may have.
     read_only : bool, optional
-        Whether it is fixed once the node runs.
+        Whether the value is fixed once the node runs.
     """
 
     name: str
     default: Any
     unit: str
-    description: str
+    words: str
     lower: float = -math.inf
     upper: float = math.inf
     choices: tuple[str, ...] = ()
     read_only: bool = False
 
     def expected(self) -> str:
-        """Say what a value has to be."""
+        """Return what a value has to be, in words.
+
+        Returns
+        -------
+        str
+            Such as 'a number with a decimal point [m] from 0 to 1'.
+        """
         if self.choices:
             return 'one of ' + ', '.join(self.choices)
-        kind = {bool: 'true or false', int: 'a whole number', float: 'a number', str: 'a text'}.get(
-            type(self.default), 'a list of texts'
-        )
-        if isinstance(self.default, list) and self.default and type(self.default[0]) is float:
-            kind = 'a list of numbers with decimal points'
         unit = f' [{self.unit}]' if self.unit else ''
-        if type(self.default) is float:
-            kind = 'a number with a decimal point'
-        if isinstance(self.default, bool) or not isinstance(self.default, int | float):
-            return kind + unit
+        if isinstance(self.default, list):
+            numbers = self.default and type(self.default[0]) is float
+            return f'a list of {"numbers with decimal points" if numbers else "texts"}{unit}'
+        if isinstance(self.default, bool | str):
+            return 'true or false' if isinstance(self.default, bool) else 'a text'
+        kind = 'a whole number' if type(self.default) is int else 'a number with a decimal point'
         return f'{kind}{unit} from {self.lower:g} to {self.upper:g}'
 
     def check(self, value: Any) -> None:
-        """Refuse what a node would refuse.
+        """Refuse a value that the node would refuse.
 
         Parameters
         ----------
         value : object
-            A value that somebody wants the parameter to have.
+            Value that somebody wants the parameter to have.
 
         Raises
         ------
@@ -81,29 +86,88 @@ class Parameter:
             raise ValueError(f'parameter {self.name}: expected {self.expected()}, got {value!r}')
 
 
-def values_of(parameters: Sequence[Parameter], given: Mapping[str, Any]) -> SimpleNamespace:
-    """Give the values of all parameters of a node that does not run.
+def parameter(
+    default: T,
+    unit: str,
+    words: str,
+    lower: float = -math.inf,
+    upper: float = math.inf,
+    *,
+    choices: tuple[str, ...] = (),
+    read_only: bool = False,
+) -> T:
+    """Declare a parameter as a field of a subclass of `NodeParameters`.
 
     Parameters
     ----------
-    parameters : sequence of Parameter
-        All its parameters.
-    given : mapping of str to object
-        Values that are not the default; of names that the node does not know nothing is taken.
+    default : bool, int, float, str or list
+        Value unless somebody gives another; every value has its type.
+    unit : str
+        Unit for people, '' if there is none.
+    words : str
+        What the parameter is.
+    lower, upper : float or int, optional
+        Closed range of a number; a whole number needs both.
+    choices : tuple of str, optional
+        All values that a text may have.
+    read_only : bool, optional
+        Whether the value is fixed once the node runs.
 
     Returns
     -------
-    SimpleNamespace
-        The values by name.
-
-    Raises
-    ------
-    ValueError
-        If a value is refused.
+    field
+        Field of a dataclass, which mypy takes for the default. Several dataclasses may share it
+        under the same name.
     """
-    values = SimpleNamespace()
-    for parameter in parameters:
-        value = given.get(parameter.name, parameter.default)
-        parameter.check(value)
-        setattr(values, parameter.name, value)
-    return values
+    known = {
+        'default': default,
+        'unit': unit,
+        'words': words,
+        'lower': lower,
+        'upper': upper,
+        'choices': choices,
+        'read_only': read_only,
+    }
+    if isinstance(default, list):
+        return cast(T, field(default_factory=default.copy, metadata=known))
+    return field(default=default, metadata=known)
+
+
+@dataclass(frozen=True)
+class NodeParameters:
+    """Values of a node's parameters; each subclass declares those of one node by `parameter`."""
+
+    @classmethod
+    def declared(cls) -> tuple[Parameter, ...]:
+        """Return the node's parameters in their order.
+
+        Returns
+        -------
+        tuple of Parameter
+            One for each field.
+        """
+        return tuple(Parameter(known.name, **known.metadata) for known in fields(cls))
+
+    @classmethod
+    def of(cls: type[P], given: Mapping[str, Any]) -> P:
+        """Return the values of a node that was started with some values.
+
+        Parameters
+        ----------
+        given : mapping of str to object
+            Values that are not the default. Names that the node does not know are ignored.
+
+        Returns
+        -------
+        NodeParameters
+            All values.
+
+        Raises
+        ------
+        ValueError
+            If a value is refused.
+        """
+        values = {known.name: given[known.name] for known in cls.declared() if known.name in given}
+        for known in cls.declared():
+            known.check(values.get(known.name, known.default))
+        return cls(**values)

@@ -1,106 +1,98 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of push_controller, and what the control is made of from them."""
+"""The parameters of `push_controller`, and the control that they make."""
 
-from types import SimpleNamespace
+import math
+from dataclasses import dataclass
 
 from tactile_push.control import Limits, PushControl, PushLaw
-from tactile_push.parameters.finger import LINKS
-from tactile_push.parameters.parameter import Parameter
+from tactile_push.parameters import shared
+from tactile_push.parameters.parameter import NodeParameters, parameter
+from tactile_push.tactile import PlanarFinger
 
-DEFAULT = Limits()
+LIMITS = Limits()
 
-LAW = (
-    Parameter('kp', 0.05, 'rad/rad', 'proportional gain of the law (18)', 0.0, 100.0),
-    Parameter('kd', 5.0, 'rad/rad', 'derivative gain of the law (18)', 0.0, 1000.0),
-    Parameter('theta_desired', -0.17453292519943295, 'rad', 'desired angle of the edge', -1.5, 1.5),
-    Parameter(
-        'phi_min', 0.5759586531581288, 'rad', 'smallest push angle', 0.1, 1.57, read_only=True
-    ),
-    Parameter(
-        'phi_max', 2.5656340004316647, 'rad', 'largest push angle', 1.58, 3.04, read_only=True
-    ),
-    Parameter('belt_speed', 0.005, 'm/s', 'speed of the belt', 1e-5, 1.0, read_only=True),
-    Parameter('control_rate', 10.0, 'Hz', 'rate of the law', 0.1, 200.0, read_only=True),
-)
-BOUNDS = (
-    Parameter(
-        'contact_timeout',
-        DEFAULT.contact_timeout,
+
+@dataclass(frozen=True)
+class PushControllerParameters(NodeParameters):
+    """The law (18), what bounds its commands and stops the finger, and the finger's links."""
+
+    kp: float = parameter(0.05, 'rad/rad', 'proportional gain of the law (18)', 0.0, 100.0)
+    kd: float = parameter(5.0, 'rad/rad', 'derivative gain of the law (18)', 0.0, 1000.0)
+    theta_desired: float = parameter(
+        math.radians(-10.0), 'rad', 'desired angle of the edge', -1.5, 1.5
+    )
+    phi_min: float = parameter(
+        math.radians(33.0), 'rad', 'smallest push angle', 0.1, 1.57, read_only=True
+    )
+    phi_max: float = parameter(
+        2.5656340004316647, 'rad', 'largest push angle', 1.58, 3.04, read_only=True
+    )
+    belt_speed: float = shared.belt_speed
+    control_rate: float = parameter(
+        shared.CONTROL_RATE, 'Hz', 'rate of the law', 0.1, 200.0, read_only=True
+    )
+    contact_timeout: float = parameter(
+        LIMITS.contact_timeout,
         's',
-        'without contact for so long the finger stops',
+        'the finger stops after this long without a contact',
         0.01,
         10.0,
-    ),
-    Parameter(
-        'max_ticks_lost',
-        DEFAULT.max_ticks_lost,
+    )
+    max_ticks_lost: int = parameter(
+        LIMITS.max_ticks_lost,
         '',
-        'with more control periods in a row without a tick the finger stops',
+        'the finger stops after more control periods in a row without a tick',
         0,
         100,
-    ),
-    Parameter('max_speed', DEFAULT.max_speed, 'm/s', 'bound on the velocity', 1e-4, 1.0),
-    Parameter(
-        'max_acceleration',
-        DEFAULT.max_acceleration,
+    )
+    max_speed: float = parameter(LIMITS.max_speed, 'm/s', 'bound on the velocity', 1e-4, 1.0)
+    max_acceleration: float = parameter(
+        LIMITS.max_acceleration,
         'm/s^2',
         'bound on the change of the velocity, except to stop',
         1e-3,
         100.0,
-    ),
-)
-FINGER = (
-    Parameter(
-        'workspace_min',
-        DEFAULT.workspace_min,
+    )
+    workspace_min: float = parameter(
+        LIMITS.workspace_min,
         'm',
         'where the finger stops moving left, x of its disk in finger_base',
         -10.0,
         10.0,
         read_only=True,
-    ),
-    Parameter(
-        'workspace_max',
-        DEFAULT.workspace_max,
+    )
+    workspace_max: float = parameter(
+        LIMITS.workspace_max,
         'm',
         'where the finger stops moving right, x of its disk in finger_base',
         -10.0,
         10.0,
         read_only=True,
-    ),
-    Parameter(
-        'joint_state_timeout',
-        DEFAULT.joint_state_timeout,
+    )
+    joint_state_timeout: float = parameter(
+        LIMITS.joint_state_timeout,
         's',
-        'without joint_states for so long the finger stops, if there ever were any',
+        'the finger stops after this long without joint_states, if there ever were any',
         0.01,
         10.0,
-    ),
-    Parameter(
-        'joint_names',
-        ['proximal_joint', 'distal_joint'],
-        '',
-        'the two moving joints in joint_states',
-        read_only=True,
-    ),
-    *LINKS,
-)
-PARAMETERS = (
-    *LAW,
-    *BOUNDS,
-    *FINGER,
-    Parameter('autostart', True, '', 'configure and activate without a manager', read_only=True),
-)
+    )
+    joint_names: list[str] = parameter(
+        shared.JOINT_NAMES, '', 'the two moving joints in joint_states', read_only=True
+    )
+    proximal_length: float = shared.proximal_length
+    distal_length: float = shared.distal_length
+    mount_angle: float = shared.mount_angle
+    autostart: bool = shared.autostart
 
 
-def make_control(p: SimpleNamespace) -> PushControl:
+def make_control(p: PushControllerParameters) -> PushControl:
     """Make the control from the values of the parameters.
 
     Parameters
     ----------
-    p : SimpleNamespace
-        The values by name.
+    p : PushControllerParameters
+        The values.
 
     Returns
     -------
@@ -121,15 +113,31 @@ def make_control(p: SimpleNamespace) -> PushControl:
     return control
 
 
-def take_values(control: PushControl, p: SimpleNamespace) -> None:
-    """Let the control know of values that may change while it runs.
+def make_finger(p: PushControllerParameters) -> PlanarFinger:
+    """Make the finger's links from the values of the parameters.
+
+    Parameters
+    ----------
+    p : PushControllerParameters
+        The values.
+
+    Returns
+    -------
+    PlanarFinger
+        The two links.
+    """
+    return PlanarFinger(p.proximal_length, p.distal_length, p.mount_angle)
+
+
+def take_values(control: PushControl, p: PushControllerParameters) -> None:
+    """Set the control's values that may change while it runs.
 
     Parameters
     ----------
     control : PushControl
         The control.
-    p : SimpleNamespace
-        The values by name.
+    p : PushControllerParameters
+        The values.
     """
     law, limits = control.law, control.limits
     law.kp, law.kd, law.theta_desired = p.kp, p.kd, p.theta_desired

@@ -5,6 +5,7 @@
 import math
 from collections import deque
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 from tactile_push.control import (
@@ -18,8 +19,11 @@ from tactile_push.control import (
     plausible,
     tick_of,
 )
-from tactile_push.parameters import values_of
-from tactile_push.parameters.push_controller import PARAMETERS, make_control, take_values
+from tactile_push.parameters.push_controller import (
+    PushControllerParameters,
+    make_control,
+    take_values,
+)
 from tactile_push.pipeline.stamps import seconds_since
 from tactile_push.replay.geometry import Stamp
 
@@ -81,7 +85,7 @@ class Controller:
     """
 
     def __init__(self, given: Mapping[str, Any], overridden: set[str], epoch: int) -> None:
-        self._values = values_of(PARAMETERS, given)
+        self._values = PushControllerParameters.of(given)
         self._control = make_control(self._values)
         self._overridden = overridden
         self._epoch = epoch
@@ -105,7 +109,7 @@ class Controller:
         given : mapping of str to object
             The values by name.
         """
-        vars(self._values).update(given)
+        self._values = replace(self._values, **given)
         take_values(self._control, self._values)
 
     def contact(self, theta: float, stamp: Stamp, log_time: int) -> Iterator[Replayed]:
@@ -179,8 +183,8 @@ class Controller:
     def _make(self, recorded: Recorded) -> Tick | None:
         """Make one tick; None as long as it is not known what the node remembers."""
         now = seconds_since(self._epoch, *recorded.stamp)
-        law = {k: v for k, v in recorded.law.items() if k not in self._overridden}
-        vars(self._values).update(law)
+        law: dict[str, Any] = {k: v for k, v in recorded.law.items() if k not in self._overridden}
+        self._values = replace(self._values, **law)
         take_values(self._control, self._values)
         before = self._before
         if not self._following or before is None:

@@ -8,8 +8,7 @@ from typing import Any
 
 from tactile_push.bags import Message
 from tactile_push.control import Tick, tick_values
-from tactile_push.parameters.contact_geometry import PARAMETERS as OF_GEOMETRY
-from tactile_push.parameters.push_controller import PARAMETERS as OF_CONTROLLER
+from tactile_push.parameters import ContactGeometryParameters, PushControllerParameters
 from tactile_push.pipeline.cdr import encode_joint_state, encode_pose, encode_twist
 from tactile_push.pipeline.orientation import quaternion_of_yaw, yaw_of_quaternion
 from tactile_push.replay.comparison import Comparison
@@ -151,10 +150,10 @@ class Finger:
             Its new values by name.
         """
         if node == 'contact_geometry' and self._geometry is not None:
-            known = {parameter.name for parameter in OF_GEOMETRY}
+            known = {parameter.name for parameter in ContactGeometryParameters.declared()}
             self._geometry.change({k: v for k, v in values.items() if k in known})
         elif node == 'push_controller' and isinstance(self._controller, Controller):
-            known = {parameter.name for parameter in OF_CONTROLLER}
+            known = {parameter.name for parameter in PushControllerParameters.declared()}
             self._controller.change({k: v for k, v in values.items() if k in known})
 
     def finish(self) -> None:

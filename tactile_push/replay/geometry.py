@@ -4,10 +4,14 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, NamedTuple
 
-from tactile_push.parameters import values_of
-from tactile_push.parameters.contact_geometry import PARAMETERS, make_finder, take_values
+from tactile_push.parameters.contact_geometry import (
+    ContactGeometryParameters,
+    make_finder,
+    take_values,
+)
 from tactile_push.pipeline.stamps import seconds_since
 from tactile_push.tactile import NO_CONTACT, REFUSALS, Contact, Reading, ReadingRejectedError
 
@@ -55,7 +59,7 @@ class Geometry:
     """
 
     def __init__(self, given: Mapping[str, Any], epoch: int, as_recorded: bool) -> None:
-        self._values = values_of(PARAMETERS, given)
+        self._values = ContactGeometryParameters.of(given)
         self._finder = make_finder(self._values)
         self._epoch = epoch
         self.as_recorded = as_recorded
@@ -69,7 +73,7 @@ class Geometry:
         given : mapping of str to object
             The values by name.
         """
-        vars(self._values).update(given)
+        self._values = replace(self._values, **given)
         take_values(self._finder, self._values)
 
     def joint_states(self, message: Any) -> None:

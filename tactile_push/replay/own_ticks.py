@@ -7,9 +7,11 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from tactile_push.control import PushLaw
-from tactile_push.parameters import values_of
-from tactile_push.parameters.finger import make_finger
-from tactile_push.parameters.push_controller import PARAMETERS, make_control
+from tactile_push.parameters.push_controller import (
+    PushControllerParameters,
+    make_control,
+    make_finger,
+)
 from tactile_push.pipeline.stamps import seconds_since
 from tactile_push.replay.controller import Replayed
 from tactile_push.replay.geometry import Stamp
@@ -37,7 +39,7 @@ class OwnTicks:
     """
 
     def __init__(self, given: Mapping[str, Any], epoch: int) -> None:
-        values = values_of(PARAMETERS, given)
+        values = PushControllerParameters.of(given)
         self._names = values.joint_names
         self._control = make_control(values)
         self._finger = make_finger(values)

@@ -11,15 +11,16 @@ from typing import Any
 
 import yaml
 
-from tactile_push.parameters.active_sensing import PARAMETERS as OF_SENSING
-from tactile_push.parameters.contact_geometry import PARAMETERS as OF_GEOMETRY
-from tactile_push.parameters.finger import LINKS
-from tactile_push.parameters.push_controller import PARAMETERS as OF_CONTROLLER
+from tactile_push.parameters import (
+    ActiveSensingParameters,
+    ContactGeometryParameters,
+    PushControllerParameters,
+)
 
 NODES = {
-    'contact_geometry': OF_GEOMETRY,
-    'push_controller': OF_CONTROLLER,
-    'active_sensing': OF_SENSING,
+    'contact_geometry': ContactGeometryParameters.declared(),
+    'push_controller': PushControllerParameters.declared(),
+    'active_sensing': ActiveSensingParameters.declared(),
 }
 NOTE = 'tactile_push.parameters'  # of a bag
 # What other nodes of the finger know too, where active_sensing was not recorded.
@@ -27,7 +28,13 @@ KNOWN_TO = {'belt_speed': 'push_controller', 'finger_radius': 'contact_geometry'
 # Of what the node's recorded state tells what came of it: when it ticked, where the finger was.
 TOLD = {
     'contact_geometry': {'joint_names'},
-    'push_controller': {'control_rate', 'joint_names', *(link.name for link in LINKS)},
+    'push_controller': {
+        'control_rate',
+        'joint_names',
+        'proximal_length',
+        'distal_length',
+        'mount_angle',
+    },
 }
 OF_EVERY_NODE = ('use_sim_time',)  # the bag's time is the only one here
 OF_OUTLINE = ('disk_radius', 'edge')  # what another outline replaces, too

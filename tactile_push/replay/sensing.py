@@ -9,8 +9,7 @@ from typing import Any, NamedTuple
 from tactile_push.bags import Message
 from tactile_push.control import Tick
 from tactile_push.estimation import sensing_values, tells_pose
-from tactile_push.parameters import values_of
-from tactile_push.parameters.active_sensing import PARAMETERS, make_sensing
+from tactile_push.parameters.active_sensing import ActiveSensingParameters, make_sensing
 from tactile_push.pipeline.cdr import encode_joint_state, encode_unsure_pose
 from tactile_push.pipeline.orientation import covariance_in_space, quaternion_of_yaw
 from tactile_push.pipeline.stamps import seconds_since, stamp_before
@@ -71,7 +70,7 @@ class Sensing:
     """
 
     def __init__(self, given: Mapping[str, Any], epoch: int) -> None:
-        self._sensing = make_sensing(values_of(PARAMETERS, given))
+        self._sensing = make_sensing(ActiveSensingParameters.of(given))
         self._epoch = epoch
 
     def tick(self, stamp: Stamp, tick: Tick) -> Sensed:

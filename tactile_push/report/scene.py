@@ -8,8 +8,8 @@ from collections.abc import Mapping
 import numpy as np
 import numpy.typing as npt
 
-from tactile_push.parameters import values_of
-from tactile_push.parameters.sim_plant import PARAMETERS, rig_config
+from tactile_push.parameters import SimPlantParameters
+from tactile_push.parameters.rig import rig_config
 from tactile_push.report.data import Scene
 from tactile_push.report.reading import CONTACT, TRUE_POSE, TRUTH, Table
 from tactile_push.simulation import RigConfig, paper_block, paper_disk
@@ -41,7 +41,7 @@ def scene_of(plant: Mapping[str, object] | None, tables: Mapping[str, Table]) ->
     radius = _radius(tables)
     if plant is not None:
         try:
-            config = rig_config(values_of(PARAMETERS, plant))
+            config = rig_config(SimPlantParameters.of(plant))
         except ValueError:  # of another version
             return Scene(radius)
         return Scene(config.radius, _outline(config), config.mu_c)

@@ -105,8 +105,9 @@ def wrong_at_run_time(rig: Rig) -> None:
     begin = time.monotonic()
     for node in NODES:
         name = finger.name(node.NAME)
-        before = _values(rig, name, node.PARAMETERS)
-        for parameter in node.PARAMETERS:
+        declared = node.PARAMETERS.declared()
+        before = _values(rig, name, declared)
+        for parameter in declared:
             for value in wrong_values(parameter):
                 answer = rig.observer.set_parameter(name, parameter.name, value_of(value))
                 expect(
@@ -115,7 +116,10 @@ def wrong_at_run_time(rig: Rig) -> None:
                 )
         answer = rig.observer.set_parameter(name, 'nonsense', value_of(1.0))
         expect(not answer.successful, f'{node.NAME}: nonsense = 1.0 was taken')
-        expect(_values(rig, name, node.PARAMETERS) == before, f'{node.NAME}: something changed')
+        expect(
+            _values(rig, name, declared) == before,
+            f'{node.NAME}: something changed',
+        )
     stops = finger.reasons_since(begin) - {''}
     expect(not stops, f'stopped: {", ".join(stops)}')
     finger.push()

@@ -10,8 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tactile_push.control import INACTIVE, PUSHING, STATES, tick_values
-from tactile_push.parameters import values_of
-from tactile_push.parameters.push_controller import PARAMETERS, make_control
+from tactile_push.parameters.push_controller import PushControllerParameters, make_control
 from tactile_push.pipeline.stamps import epoch_of, seconds_since
 from tactile_push.replay.controller import Controller
 from tactile_push.replay.own_ticks import OwnTicks
@@ -41,7 +40,7 @@ class Live:
 
     def __init__(self, simulated=False, **given):
         self.simulated = simulated
-        self.control = make_control(values_of(PARAMETERS, given))
+        self.control = make_control(PushControllerParameters.of(given))
         self.now = BEGIN * 10**9 + 123_456_789
         self.steady = 17.0
         self.before = math.nan
@@ -225,7 +224,7 @@ def test_a_record_without_the_later_fields_can_be_followed():
 
 def test_without_a_record_the_law_ticks_at_its_own_rate_from_the_first_contact_on():
     own = OwnTicks({}, EPOCH)
-    control = make_control(values_of(PARAMETERS, {}))
+    control = make_control(PushControllerParameters())
     ticks, expected = [], []
     for k in range(41):  # every 50 ms
         at = BEGIN * 10**9 + k * 50_000_000

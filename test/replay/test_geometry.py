@@ -9,8 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tactile_push.parameters import values_of
-from tactile_push.parameters.contact_geometry import PARAMETERS, make_finder
+from tactile_push.parameters.contact_geometry import ContactGeometryParameters, make_finder
 from tactile_push.pipeline.stamps import epoch_of, seconds_since
 from tactile_push.replay.geometry import Geometry
 from tactile_push.tactile import REFUSALS, Reading, ReadingRejectedError
@@ -36,7 +35,7 @@ class Live:
     """A contact geometry as its node runs it, and what a bag would hold of it."""
 
     def __init__(self, **given):
-        self.finder = make_finder(values_of(PARAMETERS, given))
+        self.finder = make_finder(ContactGeometryParameters.of(given))
         self.tactile, self.joints, self.states = [], [], []
         self.outcomes = []
 

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""One declaration a parameter: type, default, unit, range, description."""
+"""Declares the parameters of a node with ROS, and refuses what is no value of theirs."""
 
 import difflib
-from collections.abc import Callable, Sequence
-from types import SimpleNamespace
-from typing import Any
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any, TypeVar
 
 import rclpy.parameter
 from rcl_interfaces.msg import (
@@ -18,7 +18,9 @@ from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.exceptions import ParameterException
 from rclpy.node import Node
 
-from tactile_push.parameters import Parameter
+from tactile_push.parameters import NodeParameters, Parameter
+
+P = TypeVar('P', bound=NodeParameters)
 
 
 class ConfigurationError(Exception):
@@ -26,21 +28,10 @@ class ConfigurationError(Exception):
 
 
 def descriptor(parameter: Parameter) -> ParameterDescriptor:
-    """Give the descriptor that `ros2 param describe` shows.
-
-    Parameters
-    ----------
-    parameter : Parameter
-        A parameter of a node.
-
-    Returns
-    -------
-    ParameterDescriptor
-        Its description, unit and range.
-    """
+    """Return what `ros2 param describe` shows of a parameter."""
     unit = f' [{parameter.unit}]' if parameter.unit else ''
     described = ParameterDescriptor(
-        name=parameter.name, description=parameter.description + unit, read_only=parameter.read_only
+        name=parameter.name, description=parameter.words + unit, read_only=parameter.read_only
     )
     if parameter.choices:
         described.additional_constraints = parameter.expected()
@@ -57,83 +48,93 @@ def descriptor(parameter: Parameter) -> ParameterDescriptor:
 
 def declare(
     node: Node,
-    parameters: Sequence[Parameter],
-    changed: Callable[[], None] = lambda: None,
-) -> SimpleNamespace:
-    """Declare a node's parameters and keep their values at hand.
+    kind: type[P],
+    changed: Callable[[P], None] | None = None,
+    fits: Callable[[P], object] | None = None,
+) -> P:
+    """Declare a node's parameters and return their values.
 
     Parameters
     ----------
     node : Node
         The node.
-    parameters : sequence of Parameter
-        All its parameters.
+    kind : type of NodeParameters
+        Its parameters.
     changed : callable, optional
-        Called after values changed at run time.
+        Called with the present values after some changed at run time.
+    fits : callable, optional
+        Called with the values that somebody asks for at run time; raises ValueError if they do
+        not fit together.
 
     Returns
     -------
-    SimpleNamespace
-        The values by name, always the present ones.
+    NodeParameters
+        The values at the start.
 
     Raises
     ------
     ConfigurationError
         If a value from the command line or a file is refused, or a name looks like a slip.
     """
-    values = SimpleNamespace()
-    choices = {parameter.name: parameter for parameter in parameters if parameter.choices}
+    declared = {parameter.name: parameter for parameter in kind.declared()}
+    values: P | None = None  # until all are declared
 
     def check(proposed: list[rclpy.parameter.Parameter]) -> SetParametersResult:
-        for parameter in proposed:
-            known = choices.get(parameter.name)
-            if known is not None and parameter.value not in known.choices:
-                return SetParametersResult(
-                    successful=False,
-                    reason=f'{parameter.name}: expected {known.expected()}, '
-                    f'got {parameter.value!r}',
-                )
+        try:
+            asked = {new.name: new.value for new in proposed if new.name in declared}
+            for name, value in asked.items():
+                if declared[name].choices:  # rclpy checks types and ranges itself
+                    declared[name].check(value)
+            if values is not None and fits is not None:
+                fits(replace(values, **asked))
+        except ValueError as error:
+            return SetParametersResult(successful=False, reason=str(error))
         return SetParametersResult(successful=True)
 
     def take(accepted: list[rclpy.parameter.Parameter]) -> None:
-        names = {parameter.name for parameter in parameters}
-        mine = [parameter for parameter in accepted if parameter.name in names]
-        for parameter in mine:
-            setattr(values, parameter.name, parameter.value)
-        if mine:
-            changed()
+        nonlocal values
+        new = {one.name: one.value for one in accepted if one.name in declared}
+        if new and values is not None:
+            values = replace(values, **new)
+            if changed is not None:
+                changed(values)
 
     node.add_on_set_parameters_callback(check)
     overrides = node._parameter_overrides  # rclpy has no public way to see what nobody declares
-    for parameter in parameters:
-        no_texts = parameter.default == []  # rclpy would take them for no bytes
-        default = rclpy.parameter.Parameter.Type.STRING_ARRAY if no_texts else parameter.default
-        try:
-            value = node.declare_parameter(parameter.name, default, descriptor(parameter)).value
-        except ParameterException:
-            given = overrides[parameter.name].value
-            raise ConfigurationError(
-                f'parameter {parameter.name}: expected {parameter.expected()}, got {given!r}'
-            ) from None
-        if value is None:  # no texts given either
-            value = []
-            node._parameters[parameter.name] = rclpy.parameter.Parameter(
-                parameter.name, rclpy.parameter.Parameter.Type.STRING_ARRAY, value
-            )
-        setattr(values, parameter.name, value)
+    first = {name: _declare(node, parameter, overrides) for name, parameter in declared.items()}
     for name in overrides:
         if not node.has_parameter(name) and not name.startswith('qos_overrides.'):
-            similar = difflib.get_close_matches(name, list(vars(values)), n=1, cutoff=0.5)
+            similar = difflib.get_close_matches(name, list(declared), n=1, cutoff=0.5)
             if similar:
                 raise ConfigurationError(f'parameter {name}: unknown, did you mean {similar[0]}?')
             node.get_logger().warning(f'parameter {name}: unknown, so it does nothing')
+    values = kind(**first)
     node.add_post_set_parameters_callback(take)
     _refuse_values_of_no_type(node)
     return values
 
 
+def _declare(node: Node, parameter: Parameter, overrides: dict[str, Any]) -> Any:
+    """Declare one parameter and return its value."""
+    no_texts = parameter.default == []  # rclpy would take them for no bytes
+    default = rclpy.parameter.Parameter.Type.STRING_ARRAY if no_texts else parameter.default
+    try:
+        value = node.declare_parameter(parameter.name, default, descriptor(parameter)).value
+    except ParameterException:
+        given = overrides[parameter.name].value
+        raise ConfigurationError(
+            f'parameter {parameter.name}: expected {parameter.expected()}, got {given!r}'
+        ) from None
+    if value is None:  # no texts given either
+        value = []
+        node._parameters[parameter.name] = rclpy.parameter.Parameter(
+            parameter.name, rclpy.parameter.Parameter.Type.STRING_ARRAY, value
+        )
+    return value
+
+
 def _refuse_values_of_no_type(node: Node) -> None:
-    """Answer a request with a type that does not exist, by which rclpy lets the process end."""
+    """Refuse values of a type that does not exist, at which rclpy would end the process."""
     types = {known.value for known in rclpy.parameter.Parameter.Type}
 
     def guard(answer: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:

@@ -116,8 +116,7 @@ def _help(node_class: type[Node]) -> str:
         '',
         'parameters:',
     ]
-    for parameter in node_class.PARAMETERS:
-        unit = f' [{parameter.unit}]' if parameter.unit else ''
+    for parameter in node_class.PARAMETERS.declared():
         lines.append(f'  {parameter.name} := {parameter.default}')
-        lines.append(f'      {parameter.description}{unit}; {parameter.expected()}')
+        lines.append(f'      {parameter.words}; {parameter.expected()}')
     return '\n'.join(lines)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parameters of the nodes: what is declared, and what is refused with a reason."""
 
-import importlib
+import dataclasses
 import math
 import uuid
 
@@ -20,46 +20,32 @@ from tactile_push.nodes.ros.parameters import (  # noqa: E402
     declare,
     descriptor,
 )
-from tactile_push.parameters import Parameter  # noqa: E402
+from tactile_push.parameters import PARAMETERS, NodeParameters, parameter  # noqa: E402
 from tactile_push.testing.processes import claim_domain  # noqa: E402
 
-NODES = {
-    'sensor_driver': 'SensorDriver',
-    'contact_geometry': 'ContactGeometry',
-    'push_controller': 'PushController',
-    'active_sensing': 'ActiveSensingNode',
-    'sim_plant': 'SimPlant',
-    'experiment': 'Experiment',
-    'bag_recorder': 'BagRecorder',
-    'bag_player': 'BagPlayer',
-}
-DECLARED = [
-    pytest.param(parameter, id=f'{node}.{parameter.name}')
-    for node, name in NODES.items()
-    for parameter in getattr(importlib.import_module(f'tactile_push.nodes.{node}'), name).PARAMETERS
-]
 
-FAMILY = (
-    Parameter('gain', 0.5, 'rad/rad', 'a gain', 0.0, 2.0),
-    Parameter('friction', math.inf, '', 'a friction', 0.0),
-    Parameter('length', 0.05, 'm', 'a length', 0.001, 1.0, read_only=True),
-    Parameter('count', 3, '', 'a count', 1, 9),
-    Parameter('object', 'block', '', 'a thing', choices=('block', 'disk')),
-    Parameter('running', True, '', 'whether it runs'),
-    Parameter('names', ['a', 'b'], '', 'some names'),
-    Parameter('text', 'hello', '', 'a text'),
-)
+@dataclasses.dataclass(frozen=True)
+class Family(NodeParameters):
+    gain: float = parameter(0.5, 'rad/rad', 'a gain', 0.0, 2.0)
+    friction: float = parameter(math.inf, '', 'a friction', 0.0)
+    length: float = parameter(0.05, 'm', 'a length', 0.001, 1.0, read_only=True)
+    count: int = parameter(3, '', 'a count', 1, 9)
+    object: str = parameter('block', '', 'a thing', choices=('block', 'disk'))
+    running: bool = parameter(True, '', 'whether it runs')
+    names: list[str] = parameter(['a', 'b'], '', 'some names')
+    text: str = parameter('hello', '', 'a text')
 
 
 class Changes:
-    """Counts its calls and notes the values that were there at each."""
+    """Keeps the present values and all that there were after a change."""
 
     def __init__(self):
         self.values = None
         self.seen = []
 
-    def __call__(self):
-        self.seen.append(vars(self.values).copy())
+    def __call__(self, values):
+        self.values = values
+        self.seen.append(values)
 
 
 @pytest.fixture(scope='module')
@@ -95,11 +81,11 @@ def make_node(context):
 
 
 def declare_family(make_node, **overrides):
-    """Return a node with the family of parameters, their values and their changes."""
+    """Return a node with the family of parameters and what becomes of their values."""
     node = make_node(**overrides)
     changes = Changes()
-    changes.values = declare(node, FAMILY, changes)
-    return node, changes.values, changes.seen
+    changes.values = declare(node, Family, changes)
+    return node, changes
 
 
 def set_one(node, name, value, type_=None):
@@ -112,82 +98,38 @@ def refusal(make_node, **overrides):
     """Return the message with which the family refuses some overrides."""
     node = make_node(**overrides)
     with pytest.raises(ConfigurationError) as refused:
-        declare(node, FAMILY)
+        declare(node, Family)
     return str(refused.value)
 
 
-@pytest.mark.parametrize('parameter', DECLARED)
-def test_default_lies_within_its_own_range_and_choices(parameter):
-    if parameter.choices:
-        assert parameter.default in parameter.choices
-    if isinstance(parameter.default, float) or type(parameter.default) is int:
-        assert parameter.lower <= parameter.default <= parameter.upper
-        assert parameter.lower < parameter.upper
-
-
-@pytest.mark.parametrize('parameter', DECLARED)
-def test_descriptor_tells_unit_range_and_whether_it_is_fixed(parameter):
-    described = descriptor(parameter)
-    assert described.name == parameter.name
-    assert described.description.startswith(parameter.description)
-    assert len(parameter.description) >= 8
-    assert described.read_only is parameter.read_only
-    if parameter.unit:
-        assert described.description.endswith(f' [{parameter.unit}]')
-    if isinstance(parameter.default, float):
-        (bounds,) = described.floating_point_range
-        assert (bounds.from_value, bounds.to_value) == (parameter.lower, parameter.upper)
-        assert not described.integer_range
-    elif type(parameter.default) is int:
-        (bounds,) = described.integer_range
-        assert (bounds.from_value, bounds.to_value) == (parameter.lower, parameter.upper)
-    else:
-        assert not described.floating_point_range
-        assert not described.integer_range
-    for choice in parameter.choices:
-        assert choice in described.additional_constraints
-
-
-# Quantities without a unit: shares, counts and coefficients.
-WITHOUT_UNIT = {
-    'belt_ripple',
-    'edge',
-    'l_share',
-    'max_out_of_plane',
-    'max_ticks_lost',
-    'mu_c',
-    'mu_c_max',
-    'mu_c_min',
-    'mu_c_ripple',
-    'seed',
-    'sensor_dropout',
-    'sensor_outlier',
-    'steps',
-}
-
-
-@pytest.mark.parametrize('parameter', DECLARED)
-def test_number_has_a_unit_unless_it_is_a_pure_number(parameter):
-    default = parameter.default
-    if type(default[0] if default and isinstance(default, list) else default) in (int, float):
-        assert parameter.unit or parameter.name in WITHOUT_UNIT
-    else:
-        assert not parameter.unit
-
-
-@pytest.mark.parametrize('node', NODES)
-def test_names_of_a_node_are_unique_and_in_snake_case(node):
-    names = [p.values[0].name for p in DECLARED if p.id.startswith(f'{node}.')]
-    assert names
-    assert len(set(names)) == len(names)
-    assert all(name == name.lower() and name.isidentifier() for name in names)
+@pytest.mark.parametrize('node', PARAMETERS)
+def test_descriptors_tell_unit_range_and_what_is_fixed(node):
+    for declared in PARAMETERS[node].declared():
+        described = descriptor(declared)
+        assert described.name == declared.name
+        assert described.description.startswith(declared.words)
+        assert described.read_only is declared.read_only
+        if declared.unit:
+            assert described.description.endswith(f' [{declared.unit}]')
+        if isinstance(declared.default, float):
+            (bounds,) = described.floating_point_range
+            assert (bounds.from_value, bounds.to_value) == (declared.lower, declared.upper)
+            assert not described.integer_range
+        elif type(declared.default) is int:
+            (bounds,) = described.integer_range
+            assert (bounds.from_value, bounds.to_value) == (declared.lower, declared.upper)
+        else:
+            assert not described.floating_point_range
+            assert not described.integer_range
+        for choice in declared.choices:
+            assert choice in described.additional_constraints
 
 
 def test_values_are_the_defaults_unless_somebody_says_otherwise(make_node):
-    node, values, changes = declare_family(make_node)
-    assert vars(values) == {parameter.name: parameter.default for parameter in FAMILY}
+    node, family = declare_family(make_node)
+    assert family.values == Family()
     assert node.get_parameter('gain').value == 0.5
-    assert changes == []
+    assert family.seen == []
 
 
 def test_overrides_become_the_values(make_node):
@@ -201,12 +143,12 @@ def test_overrides_become_the_values(make_node):
         'names': ['x'],
         'text': '',
     }
-    _, values, _ = declare_family(make_node, **given)
-    assert vars(values) == given
+    _, family = declare_family(make_node, **given)
+    assert dataclasses.asdict(family.values) == given
 
 
 def test_declared_parameters_describe_themselves(make_node):
-    node, _, _ = declare_family(make_node)
+    node, _ = declare_family(make_node)
     description = node.describe_parameter('gain')
     assert description.type == ParameterType.PARAMETER_DOUBLE
     assert description.description == 'a gain [rad/rad]'
@@ -256,13 +198,13 @@ def test_misspelt_name_is_refused_with_the_name_that_was_meant(make_node, slip, 
 
 
 def test_name_that_is_like_no_other_does_no_harm(make_node):
-    _, values, _ = declare_family(make_node, zzz=1.0)
-    assert not hasattr(values, 'zzz')
+    _, family = declare_family(make_node, zzz=1.0)
+    assert family.values == Family()
 
 
 def test_parameters_of_the_node_itself_are_no_slips(make_node):
-    _, values, _ = declare_family(make_node, use_sim_time=True)
-    assert not hasattr(values, 'use_sim_time')
+    _, family = declare_family(make_node, use_sim_time=True)
+    assert family.values == Family()
 
 
 @pytest.mark.parametrize(
@@ -279,12 +221,10 @@ def test_parameters_of_the_node_itself_are_no_slips(make_node):
     ],
 )
 def test_good_value_at_run_time_is_taken_and_told(make_node, name, value):
-    node, values, changes = declare_family(make_node)
+    node, family = declare_family(make_node)
     assert set_one(node, name, value).successful
-    assert getattr(values, name) == value
     assert node.get_parameter(name).value == value
-    assert len(changes) == 1
-    assert changes[0][name] == value  # the value is there before `changed` is called
+    assert family.seen == [Family(**{name: value})]
 
 
 @pytest.mark.parametrize(
@@ -307,61 +247,76 @@ def test_good_value_at_run_time_is_taken_and_told(make_node, name, value):
     ],
 )
 def test_bad_value_at_run_time_is_refused_and_changes_nothing(make_node, name, value):
-    node, values, changes = declare_family(make_node)
-    before = vars(values).copy()
+    node, family = declare_family(make_node)
     result = set_one(node, name, value)
     assert not result.successful
     assert name in result.reason or result.reason
-    assert vars(values) == before
-    assert node.get_parameter(name).value == before[name]
-    assert changes == []
+    assert node.get_parameter(name).value == getattr(Family(), name)
+    assert family.seen == []
 
 
 def test_value_of_no_choice_is_refused_with_the_choices(make_node):
-    node, _, _ = declare_family(make_node)
+    node, _ = declare_family(make_node)
     assert set_one(node, 'object', 'ball').reason == (
-        "object: expected one of block, disk, got 'ball'"
+        "parameter object: expected one of block, disk, got 'ball'"
     )
 
 
 def test_value_cannot_be_taken_away_at_run_time(make_node):
-    node, values, changes = declare_family(make_node)
+    node, family = declare_family(make_node)
     assert not set_one(node, 'gain', None, RosParameter.Type.NOT_SET).successful
-    assert values.gain == 0.5
-    assert changes == []
+    assert node.get_parameter('gain').value == 0.5
+    assert family.seen == []
 
 
 def test_several_values_at_once_are_taken_all_or_none(make_node):
-    node, values, changes = declare_family(make_node)
+    node, family = declare_family(make_node)
     good, bad = RosParameter('gain', value=1.0), RosParameter('count', value=99)
     assert not node.set_parameters_atomically([good, bad]).successful
-    assert (values.gain, values.count, changes) == (0.5, 3, [])
+    assert (family.values, family.seen) == (Family(), [])
     also_good = RosParameter('count', value=7)
     assert node.set_parameters_atomically([good, also_good]).successful
-    assert (values.gain, values.count) == (1.0, 7)
-    assert len(changes) == 1
+    assert family.seen == [Family(gain=1.0, count=7)]
+
+
+def test_values_change_one_after_the_other(make_node):
+    node, family = declare_family(make_node)
+    assert set_one(node, 'gain', 1.0).successful
+    assert set_one(node, 'count', 7).successful
+    assert family.values == Family(gain=1.0, count=7)
+
+
+def test_values_that_do_not_fit_together_are_refused_with_the_reason(make_node):
+    def fit(values):
+        if values.count * values.gain > 3.0:
+            raise ValueError('too much in all')
+
+    node, seen = make_node(count=4), []
+    declare(node, Family, seen.append, fit)
+    assert set_one(node, 'gain', 1.0).reason == 'too much in all'
+    both = [RosParameter('gain', value=1.0), RosParameter('count', value=3)]
+    assert node.set_parameters_atomically(both).successful
+    assert seen == [Family(gain=1.0, count=3)]
 
 
 def test_parameters_of_others_change_nothing_here(make_node):
-    node, values, changes = declare_family(make_node)
+    node, family = declare_family(make_node)
     node.declare_parameter('theirs', 1.0)
-    before = vars(values).copy()
     assert set_one(node, 'theirs', 2.0).successful
-    assert vars(values) == before
-    assert changes == []
+    assert (family.values, family.seen) == (Family(), [])
 
 
 def test_two_nodes_have_values_of_their_own(make_node):
-    one, one_values, _ = declare_family(make_node)
-    _, other_values, _ = declare_family(make_node)
+    one, one_family = declare_family(make_node)
+    _, other_family = declare_family(make_node)
     assert set_one(one, 'gain', 1.0).successful
-    assert (one_values.gain, other_values.gain) == (1.0, 0.5)
+    assert (one_family.values.gain, other_family.values.gain) == (1.0, 0.5)
 
 
-@pytest.mark.parametrize('parameter', DECLARED)
-def test_node_starts_with_its_declared_default(make_node, parameter):
+@pytest.mark.parametrize('name', PARAMETERS)
+def test_a_node_starts_with_its_declared_defaults(make_node, name):
     node = make_node()
-    values = declare(node, [parameter])
-    assert getattr(values, parameter.name) == parameter.default
-    message = node.get_parameter(parameter.name).get_parameter_value()
-    assert parameter_value_to_python(message) == parameter.default
+    assert declare(node, PARAMETERS[name]) == PARAMETERS[name]()
+    for declared in PARAMETERS[name].declared():
+        message = node.get_parameter(declared.name).get_parameter_value()
+        assert parameter_value_to_python(message) == declared.default

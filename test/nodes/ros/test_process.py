@@ -15,7 +15,7 @@ rclpy = pytest.importorskip('rclpy')
 
 from rclpy.context import Context  # noqa: E402
 
-from tactile_push.nodes.contact_geometry import ContactGeometry  # noqa: E402
+from tactile_push.parameters import ContactGeometryParameters  # noqa: E402
 from tactile_push.testing.processes import NodeProcesses  # noqa: E402
 
 PATIENCE = 60.0  # [s]
@@ -134,9 +134,10 @@ import rclpy
 from rclpy.node import Node
 from tactile_push.nodes.ros import process
 from tactile_push.nodes.ros.parameters import ConfigurationError
+from tactile_push.parameters import NodeParameters
 
 class Own(Node):
-    NAME, PARAMETERS = 'own', ()
+    NAME, PARAMETERS = 'own', NodeParameters
 
     def __init__(self):
         super().__init__(self.NAME)
@@ -218,18 +219,19 @@ def test_help_lists_every_parameter_with_default_and_unit(environment):
     assert (done.returncode, done.stderr) == (0, '')
     lines = done.stdout.splitlines()
     assert lines[0].startswith('usage: contact_geometry')
-    assert len(ContactGeometry.PARAMETERS) >= 6
-    for parameter in ContactGeometry.PARAMETERS:
+    declared = ContactGeometryParameters.declared()
+    assert len(declared) >= 6
+    for parameter in declared:
         (index,) = (
             number
             for number, line in enumerate(lines)
             if line.split(' := ')[0].strip() == parameter.name
         )
         assert lines[index].endswith(f':= {parameter.default}')
-        assert parameter.description in lines[index + 1]
+        assert parameter.words in lines[index + 1]
         if parameter.unit:
-            assert f'[{parameter.unit}]' in lines[index + 1]
-    assert "effective radius of the finger's disk [m]" in done.stdout
+            assert lines[index + 1].count(f'[{parameter.unit}]') == 1
+    assert "effective radius of the finger's disk; a number with a decimal point [m]" in done.stdout
     assert 'from 0.0001 to 1' in done.stdout
     assert max(map(len, lines)) < 200
 

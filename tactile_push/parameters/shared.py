@@ -1,0 +1,28 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""Fields that several nodes declare under the same name and with the same words."""
+
+import math
+
+from tactile_push.parameters.parameter import parameter
+
+DEVICE = 'socket://127.0.0.1:54320'  # where `sim_plant` and `sensor_driver` meet by default
+FINGER_RADIUS = 0.0135
+JOINT_NAMES = ['proximal_joint', 'distal_joint']
+MOUNT_ANGLE = math.pi / 2.0
+CONTROL_RATE = 10.0
+
+finger_radius = parameter(
+    FINGER_RADIUS, 'm', "effective radius of the finger's disk", 1e-4, 1.0, read_only=True
+)
+belt_speed = parameter(0.005, 'm/s', 'speed of the belt', 1e-5, 1.0, read_only=True)
+proximal_length = parameter(
+    0.06, 'm', 'distance between the moving joints of the finger', 1e-3, 1.0, read_only=True
+)
+distal_length = parameter(
+    0.08, 'm', 'distance from the last joint to the centre of the disk', 1e-3, 1.0, read_only=True
+)
+mount_angle = parameter(
+    MOUNT_ANGLE, 'rad', 'angle of the finger at joint angles zero', -6.3, 6.3, read_only=True
+)
+autostart = parameter(True, '', 'configure and activate without a manager', read_only=True)
