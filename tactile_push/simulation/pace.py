@@ -4,6 +4,8 @@
 
 import math
 
+LONGEST_LOOK = 0.05  # between two looks more than this is no waiting: nobody looked [s]
+
 
 class Pace:
     """Paces simulated time: no faster than asked, and never ahead of the loop it closes.
@@ -13,9 +15,10 @@ class Pace:
     contact with the reading's own stamp: a driver that reads late would stamp with a later time
     than the sensor's. So a loaded machine makes an experiment slower, not different. A reading from
     which no contact need follow, because it is lost, tells of none or is an outlier, is not waited
-    for: that would cost the patience each time. What is
-    overdue by `patience` of wall time is not waited for any more until it comes again: somebody
-    has gone.
+    for: that would cost the patience each time. After
+    `patience` of wall time Pace no longer waits for what is overdue, until it comes again: somebody
+    has gone. While this process itself stands still it waits for nothing: what is overdue may lie
+    here unread.
 
     Parameters
     ----------
@@ -32,7 +35,8 @@ class Pace:
         self._control_period = control_period
         self._patience = patience
         self._next_wall = -math.inf
-        self._held_since = math.nan
+        self._held = 0.0  # for how long time has stood still [s of wall time]
+        self._looked = math.inf  # when it was last seen to stand still [s of wall time]
         self._command = math.nan  # not waited for
         self._contact = math.nan  # not waited for
         self._reading = math.nan
@@ -104,15 +108,16 @@ class Pace:
         command_overdue = time > due + step / 2.0
         self._contact_overdue = self._contact < self._reading - step / 2.0
         if command_overdue or self._contact_overdue:
-            if math.isnan(self._held_since):
-                self._held_since = wall
-            if wall - self._held_since < self._patience:
+            longest = max(LONGEST_LOOK, step / self._factor)
+            self._held += min(max(wall - self._looked, 0.0), longest)
+            self._looked = wall
+            if self._held < self._patience:
                 return False
             if command_overdue:
                 self._command = math.nan
             if self._contact_overdue:
                 self._contact = math.nan
-        self._held_since = math.nan
+        self._held, self._looked = 0.0, math.inf
         self._contact_overdue = False
         looping = self.commanded and not math.isnan(self._contact)
         pause = step / (self._factor if looping else min(self._factor, 1.0))

@@ -237,6 +237,19 @@ def test_patience_starts_anew_with_every_wait():
             assert is_held(loop)
 
 
+def test_plant_that_stood_still_itself_waits_on_for_what_it_has_not_read_yet():
+    loop = Loop(1.0)
+    run_to(loop, 1.0)
+    loop.pace.command(1.0, loop.time)
+    run_to(loop, 1.0 + PERIOD)
+    assert is_held(loop)
+    loop.wall += 10.0 * PATIENCE
+    assert is_held(loop)
+    loop.pace.command(1.0 + PERIOD, loop.time)
+    assert loop.pace.commanded
+    run_to(loop, 1.0 + 2.0 * PERIOD)
+
+
 def test_after_it_gave_up_time_is_not_ahead_of_real_time():
     loop = Loop(50.0)
     loop.close()

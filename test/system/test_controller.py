@@ -55,7 +55,8 @@ class World:
         self.nodes.start('push_controller', {**simulated, **parameters}, name=name)
         self.wait_for_state('pushing')
         self.observer.wait_for(
-            lambda: self.commands[-1].twist.linear.x < -1e-4, 'the finger to be moved'
+            lambda: self.commands and self.commands[-1].twist.linear.x < -1e-4,
+            'the finger to be moved',
         )
 
     def _say(self) -> None:
@@ -260,6 +261,23 @@ def test_clock_that_jumps_stops_the_finger_at_once_until_it_is_resumed(world: Wo
     assert world.resume().success
     world.wait_for_state('pushing')
     world.check_that_it_resumes_without_a_kick()
+
+
+def test_tick_of_simulated_time_hears_every_contact_that_has_arrived(world: World):
+    world.time = 5.0
+    world.start()
+    controller = world.nodes.running['push_controller']
+    controller.send_signal(signal.SIGSTOP)
+    behind = world.time + 0.22
+    world.observer.wait_for(lambda: world.time > behind, 'contacts to wait')
+    world.step = 0.0
+    world.silent = True
+    seen = len(world.states)
+    controller.send_signal(signal.SIGCONT)
+    world.observer.wait_for(lambda: len(world.states) > seen, 'a tick')
+    last = world.states[-1]
+    assert seconds(last) == pytest.approx(world.time)
+    assert field(last, 'silence') == pytest.approx(0.0, abs=1e-6)
 
 
 def test_time_that_stands_still_is_a_warning(world: World):
