@@ -145,7 +145,7 @@ def predict(pushes: Pushes, support: Support, mu_c: float) -> Errors:
     position, angle = [], []
     for begin, end, (start, stop) in zip(pushes.starts, pushes.ends, pushes.ways, strict=True):
         pose = moved(begin, x, y)
-        sigma, gap = clearance(pose.x, pose.y, pose.angle, *start, path, pushes.tip_radius)
+        sigma, gap = clearance(pose, *start, path, pushes.tip_radius)
         theta = pose.angle + tangent_angle(sigma, path)
         back = min(gap, 0.0)
         shift = -math.sin(theta) * back, math.cos(theta) * back

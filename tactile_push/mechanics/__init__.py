@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Mechanics of a pushed object: Sections I and II of the paper."""
 
+from tactile_push.mechanics.body import Body, Finger, Pose
 from tactile_push.mechanics.contact import clearance, contact, piece_at, reach, tangent_angle
 from tactile_push.mechanics.exact_motion import (
     exact_pushed_twist,
@@ -36,7 +37,7 @@ from tactile_push.mechanics.motion import (
 )
 from tactile_push.mechanics.outline import Outline
 from tactile_push.mechanics.push import approach, move_finger, push, push_rates
-from tactile_push.mechanics.slider import Pose, Slider
+from tactile_push.mechanics.slider import Slider
 from tactile_push.mechanics.support import Support
 
 __all__ = [
@@ -45,8 +46,10 @@ __all__ = [
     'SLIP_LEFT',
     'SLIP_RIGHT',
     'STICK',
+    'Body',
     'EllipsoidalLimitSurface',
     'ExactLimitSurface',
+    'Finger',
     'LimitSurface',
     'Outline',
     'Pose',

@@ -13,6 +13,7 @@ one after a full turn. `Outline.path` makes it. Poses of an object are those of 
 
 import math
 
+from tactile_push.mechanics.body import Pose
 from tactile_push.mechanics.compiled import Array, compiled, equation
 
 SIGMA = 0  # where the piece starts [m]
@@ -168,15 +169,13 @@ def reach(theta: float, d: float, l: float, r: float) -> tuple[float, float]:
 
 
 @compiled
-def clearance(
-    x: float, y: float, angle: float, x_f: float, y_f: float, path: Array, r: float
-) -> tuple[float, float]:
+def clearance(pose: Pose, x_f: float, y_f: float, path: Array, r: float) -> tuple[float, float]:
     """Find where the finger's disk is nearest to an object.
 
     Parameters
     ----------
-    x, y, angle : float
-        Pose of the object [m, m, rad].
+    pose : Pose
+        Pose of the object.
     x_f, y_f : float
         Centre of the finger's disk [m].
     path : ndarray, shape (M + 1, 8)
@@ -191,7 +190,7 @@ def clearance(
     gap : float
         Distance between disk and outline [m]; negative where they overlap.
     """
-    p_x, p_y = rotated(x_f - x, y_f - y, -angle)
+    p_x, p_y = rotated(x_f - pose.x, y_f - pose.y, -pose.angle)
     sigma, gap = 0.0, math.inf
     for piece in range(len(path) - 1):
         curvature, length = path[piece, CURVATURE], path[piece, LENGTH]

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from tactile_push.mechanics.body import Pose
 from tactile_push.mechanics.compiled import Array
 from tactile_push.mechanics.contact import (
     COLUMNS,
@@ -313,12 +314,12 @@ class Outline:
             Whether each one lies inside.
         """
         r = ROUNDING * self.length
-        path = self.path(r)  # of a finger that is almost a point
+        path, origin = self.path(r), Pose(0.0, 0.0, 0.0)  # of a finger that is almost a point
         return np.array(
             [
                 math.isfinite(x)
                 and math.isfinite(y)
-                and clearance(0.0, 0.0, 0.0, float(x), float(y), path, r)[1] + r <= slack
+                and clearance(origin, float(x), float(y), path, r)[1] + r <= slack
                 for x, y in np.asarray(points, dtype=float)
             ],
             dtype=bool,

@@ -10,6 +10,7 @@ a solution of order 2 sees them, and the steps become short.
 
 import math
 
+from tactile_push.mechanics.body import Body, Finger, Pose
 from tactile_push.mechanics.compiled import Array, compiled, equation
 from tactile_push.mechanics.contact import (
     SIGMA,
@@ -30,20 +31,33 @@ SMALLEST_STEP = 1e-9  # of the push; how finely the end of contact is located
 
 
 @equation
-def push_rates(
-    turn: float,
-    sigma: float,
-    piece: int,
-    v_x: float,
-    v_y: float,
-    path: Array,
+def _turn_and_slip(
+    v_px: float,
+    v_py: float,
+    t_x: float,
+    t_y: float,
+    d: float,
+    l: float,
     c: float,
-    support: Array | None,
-    cos_alpha: float,
-    sin_alpha: float,
-    r: float,
+    support: Array | None,  # an argument, or numba could not choose when it compiles
+    finger: Finger,
 ) -> tuple[float, float, int]:
-    """Give the rates of the object's angle and of the contact during a push.
+    """Compute omega, v_slip and mode under the object's limit surface, as `pushed_twist` does."""
+    cos_alpha, sin_alpha = finger.cos_alpha, finger.sin_alpha
+    if support is None:
+        _, _, omega, v_slip, mode = pushed_twist(v_px, v_py, d, -l, cos_alpha, sin_alpha, c)
+    else:
+        _, _, omega, v_slip, mode = exact_pushed_twist(
+            v_px, v_py, d, -l, cos_alpha, sin_alpha, c, t_x, t_y, support
+        )
+    return omega, v_slip, mode
+
+
+@equation
+def push_rates(
+    turn: float, sigma: float, piece: int, v_x: float, v_y: float, body: Body, finger: Finger
+) -> tuple[float, float, int]:
+    """Compute the rates of the object's angle and of the contact during a push.
 
     Parameters
     ----------
@@ -56,36 +70,85 @@ def push_rates(
     v_x, v_y : float
         Velocity of the finger relative to the support [m/s], in the axes that the object's frame
         had at the start of the push.
-    path : ndarray, shape (M + 1, 8)
-        Pieces of the path, see `Outline.path`.
-    c : float
-        Ratio m_max / f_max [m].
-    support : ndarray, shape (3, N), or None
-        Support points (x, y, load) for the exact limit surface; None for the ellipsoid.
-    cos_alpha, sin_alpha : float
-        The friction cone, see `friction_cone`.
-    r : float
-        Radius of the finger's disk [m].
+    body : Body
+        The object.
+    finger : Finger
+        The finger.
 
     Returns
     -------
     omega : float
         Angular velocity of the object [rad/s].
     sigma_dot : float
-        Velocity of the disk's centre along its path [m/s].
+        Velocity of the disk's centre along its path [m/s], eq. (16).
     mode : int
         `FREE`, `STICK`, `SLIP_LEFT` or `SLIP_RIGHT`.
     """
-    t_x, t_y, d, l = contact(sigma, piece, path, r)
+    t_x, t_y, d, l = contact(sigma, piece, body.path, finger.r)
     v_x, v_y = rotated(v_x, v_y, -turn)
     v_px, v_py = t_x * v_x + t_y * v_y, t_x * v_y - t_y * v_x
-    if support is None:
-        _, _, omega, v_slip, mode = pushed_twist(v_px, v_py, d, -l, cos_alpha, sin_alpha, c)
-    else:
-        _, _, omega, v_slip, mode = exact_pushed_twist(
-            v_px, v_py, d, -l, cos_alpha, sin_alpha, c, t_x, t_y, support
+    omega, v_slip, mode = _turn_and_slip(v_px, v_py, t_x, t_y, d, l, body.c, body.support, finger)
+    return omega, v_slip - omega * finger.r, mode  # (16)
+
+
+@compiled
+def push_body(
+    angle: float,
+    sigma: float,
+    v_x: float,
+    v_y: float,
+    duration: float,
+    body: Body,
+    finger: Finger,
+) -> tuple[float, float, float, int]:
+    """Push an object that the finger touches, straight on for a while, as `push` does."""
+    path = body.path
+    v_x, v_y = rotated(v_x, v_y, -angle)
+    piece = piece_at(sigma, path)
+    scale = 2.0 * math.pi / path[-1, SIGMA]
+    turn, elapsed, step = 0.0, 0.0, duration
+    omega_1, rate_1, mode = push_rates(turn, sigma, piece, v_x, v_y, body, finger)
+    while elapsed < duration and mode != FREE:
+        last = elapsed + step >= duration
+        if last:
+            step = duration - elapsed
+        turn_2, sigma_2 = turn + step / 2.0 * omega_1, sigma + step / 2.0 * rate_1
+        omega_2, rate_2, mode_2 = push_rates(turn_2, sigma_2, piece, v_x, v_y, body, finger)
+        turn_3, sigma_3 = turn + step / 2.0 * omega_2, sigma + step / 2.0 * rate_2
+        omega_3, rate_3, mode_3 = push_rates(turn_3, sigma_3, piece, v_x, v_y, body, finger)
+        turn_4, sigma_4 = turn + step * omega_3, sigma + step * rate_3
+        omega_4, rate_4, mode_4 = push_rates(turn_4, sigma_4, piece, v_x, v_y, body, finger)
+        turn_5 = turn + step / 6.0 * (omega_1 + 2.0 * omega_2 + 2.0 * omega_3 + omega_4)
+        sigma_5 = sigma + step / 6.0 * (rate_1 + 2.0 * rate_2 + 2.0 * rate_3 + rate_4)
+        omega_5, rate_5, mode_5 = push_rates(turn_5, sigma_5, piece, v_x, v_y, body, finger)
+        # The solution with omega_5 in the place of omega_4 is of order 3.
+        error = step / 6.0 * max(abs(omega_5 - omega_4), abs(rate_5 - rate_4) * scale)
+        # One of order 2 sees kinks anywhere in the step, and is strict where there is one.
+        bend = (
+            step
+            / 6.0
+            * max(
+                abs(omega_1 - omega_2 - omega_3 + omega_4),
+                abs(rate_1 - rate_2 - rate_3 + rate_4) * scale,
+            )
         )
-    return omega, v_slip - omega * r, mode  # (16)
+        piece_5 = piece_at(sigma_5, path)
+        smooth = mode_2 == mode and mode_3 == mode and mode_4 == mode and mode_5 == mode
+        if smooth and piece_5 == piece:
+            bend *= SMOOTH
+        error = max(error, bend) / TOLERANCE
+        smallest = step <= SMALLEST_STEP * duration
+        if mode_5 == FREE and not smallest:
+            step /= 2.0  # up to where the finger stops pushing, no further
+            continue
+        if not error > 1.0 or smallest:  # also if it is not a number
+            turn, sigma, omega_1, rate_1 = turn_5, sigma_5, omega_5, rate_5
+            mode, piece = mode_5, piece_5
+            elapsed += step
+            if last:
+                return angle + turn, sigma, duration, mode
+        step *= min(4.0, max(0.2, 0.9 / math.sqrt(math.sqrt(max(error, 1e-3)))))
+    return angle + turn, sigma, elapsed, mode
 
 
 @compiled
@@ -103,6 +166,9 @@ def push(
     r: float,
 ) -> tuple[float, float, float, int]:
     """Push an object that the finger touches, straight on for a while.
+
+    For calls from Python: it takes the numbers of a `Body` and a `Finger` one by one, because
+    numba needs longer to recognise two named tuples that come from Python than for the push.
 
     Parameters
     ----------
@@ -135,69 +201,13 @@ def push(
     mode : int
         How the contact moved at the end: `FREE`, `STICK`, `SLIP_LEFT` or `SLIP_RIGHT`.
     """
-    v_x, v_y = rotated(v_x, v_y, -angle)
-    piece = piece_at(sigma, path)
-    scale = 2.0 * math.pi / path[-1, SIGMA]
-    turn, elapsed, step = 0.0, 0.0, duration
-    omega_1, rate_1, mode = push_rates(
-        turn, sigma, piece, v_x, v_y, path, c, support, cos_alpha, sin_alpha, r
-    )
-    while elapsed < duration and mode != FREE:
-        last = elapsed + step >= duration
-        if last:
-            step = duration - elapsed
-        turn_2, sigma_2 = turn + step / 2.0 * omega_1, sigma + step / 2.0 * rate_1
-        omega_2, rate_2, mode_2 = push_rates(
-            turn_2, sigma_2, piece, v_x, v_y, path, c, support, cos_alpha, sin_alpha, r
-        )
-        turn_3, sigma_3 = turn + step / 2.0 * omega_2, sigma + step / 2.0 * rate_2
-        omega_3, rate_3, mode_3 = push_rates(
-            turn_3, sigma_3, piece, v_x, v_y, path, c, support, cos_alpha, sin_alpha, r
-        )
-        turn_4, sigma_4 = turn + step * omega_3, sigma + step * rate_3
-        omega_4, rate_4, mode_4 = push_rates(
-            turn_4, sigma_4, piece, v_x, v_y, path, c, support, cos_alpha, sin_alpha, r
-        )
-        turn_5 = turn + step / 6.0 * (omega_1 + 2.0 * omega_2 + 2.0 * omega_3 + omega_4)
-        sigma_5 = sigma + step / 6.0 * (rate_1 + 2.0 * rate_2 + 2.0 * rate_3 + rate_4)
-        omega_5, rate_5, mode_5 = push_rates(
-            turn_5, sigma_5, piece, v_x, v_y, path, c, support, cos_alpha, sin_alpha, r
-        )
-        # The solution with omega_5 in the place of omega_4 is of order 3.
-        error = step / 6.0 * max(abs(omega_5 - omega_4), abs(rate_5 - rate_4) * scale)
-        # One of order 2 sees kinks anywhere in the step, and is strict where there is one.
-        bend = (
-            step
-            / 6.0
-            * max(
-                abs(omega_1 - omega_2 - omega_3 + omega_4),
-                abs(rate_1 - rate_2 - rate_3 + rate_4) * scale,
-            )
-        )
-        piece_5 = piece_at(sigma_5, path)
-        smooth = mode_2 == mode and mode_3 == mode and mode_4 == mode and mode_5 == mode
-        if smooth and piece_5 == piece:
-            bend *= SMOOTH
-        error = max(error, bend) / TOLERANCE
-        smallest = step <= SMALLEST_STEP * duration
-        if mode_5 == FREE and not smallest:
-            step /= 2.0  # up to where the finger stops pushing, no further
-            continue
-        if not error > 1.0 or smallest:  # also if it is not a number
-            turn, sigma, omega_1, rate_1 = turn_5, sigma_5, omega_5, rate_5
-            mode, piece = mode_5, piece_5
-            elapsed += step
-            if last:
-                return angle + turn, sigma, duration, mode
-        step *= min(4.0, max(0.2, 0.9 / math.sqrt(math.sqrt(max(error, 1e-3)))))
-    return angle + turn, sigma, elapsed, mode
+    body, finger = Body(path, c, support), Finger(cos_alpha, sin_alpha, r)
+    return push_body(angle, sigma, v_x, v_y, duration, body, finger)
 
 
 @compiled
 def approach(
-    x: float,
-    y: float,
-    angle: float,
+    pose: Pose,
     x_f: float,
     y_f: float,
     v_x: float,
@@ -213,8 +223,8 @@ def approach(
 
     Parameters
     ----------
-    x, y, angle : float
-        Pose of the object [m, m, rad].
+    pose : Pose
+        Pose of the object.
     x_f, y_f : float
         Centre of the finger's disk at the start [m].
     v_x, v_y : float
@@ -237,11 +247,11 @@ def approach(
     """
     elapsed = 0.0
     while True:
-        sigma, gap = clearance(x, y, angle, x_f + v_x * elapsed, y_f + v_y * elapsed, path, r)
+        sigma, gap = clearance(pose, x_f + v_x * elapsed, y_f + v_y * elapsed, path, r)
         if gap <= TOUCH:
             return elapsed, sigma, True
         t_x, t_y, _, _ = contact(sigma, piece_at(sigma, path), path, r)
-        v_t, v_o = rotated(v_x, v_y, -angle)
+        v_t, v_o = rotated(v_x, v_y, -pose.angle)
         closing = t_x * v_o - t_y * v_t
         if not closing * (duration - elapsed) > gap:
             return duration, sigma, False
@@ -252,9 +262,7 @@ def approach(
 
 @compiled
 def move_finger(
-    x: float,
-    y: float,
-    angle: float,
+    pose: Pose,
     sigma: float,
     touching: bool,
     x_f: float,
@@ -262,19 +270,15 @@ def move_finger(
     v_x: float,
     v_y: float,
     duration: float,
-    path: Array,
-    c: float,
-    support: Array | None,
-    cos_alpha: float,
-    sin_alpha: float,
-    r: float,
-) -> tuple[float, float, float, float, bool, int]:
+    body: Body,
+    finger: Finger,
+) -> tuple[Pose, float, bool, int]:
     """Move the finger straight on, whether it touches the object from the start, later or never.
 
     Parameters
     ----------
-    x, y, angle : float
-        Pose of the object [m, m, rad].
+    pose : Pose
+        Pose of the object.
     sigma : float
         Position of the disk's centre along its path around the object [m], if it touches.
     touching : bool
@@ -285,21 +289,15 @@ def move_finger(
         Velocity of the finger relative to the support [m/s].
     duration : float
         Duration of the motion [s].
-    path : ndarray, shape (M + 1, 8)
-        Pieces of the path, see `Outline.path`.
-    c : float
-        Ratio m_max / f_max [m].
-    support : ndarray, shape (3, N), or None
-        Support points (x, y, load) for the exact limit surface; None for the ellipsoid.
-    cos_alpha, sin_alpha : float
-        The friction cone, see `friction_cone`.
-    r : float
-        Radius of the finger's disk [m].
+    body : Body
+        The object.
+    finger : Finger
+        The finger.
 
     Returns
     -------
-    x, y, angle : float
-        Pose of the object at the end [m, m, rad].
+    pose : Pose
+        Pose of the object at the end.
     sigma : float
         Contact, or the nearest position along the path [m].
     touching : bool
@@ -307,25 +305,23 @@ def move_finger(
     mode : int
         How the contact moved at the end: `FREE`, `STICK`, `SLIP_LEFT` or `SLIP_RIGHT`.
     """
-    mode = FREE
+    path, r, mode = body.path, finger.r, FREE
+    around = path[-1, SIGMA]
     if not touching:
-        near, around = sigma, path[-1, SIGMA]
-        elapsed, sigma, touching = approach(x, y, angle, x_f, y_f, v_x, v_y, duration, path, r)
+        near = sigma
+        elapsed, sigma, touching = approach(pose, x_f, y_f, v_x, v_y, duration, path, r)
         sigma += around * math.floor((near - sigma) / around + 0.5)
         x_f, y_f, duration = x_f + v_x * elapsed, y_f + v_y * elapsed, duration - elapsed
     if touching:
-        angle, sigma, elapsed, mode = push(
-            angle, sigma, v_x, v_y, duration, path, c, support, cos_alpha, sin_alpha, r
-        )
+        angle, sigma, elapsed, mode = push_body(pose.angle, sigma, v_x, v_y, duration, body, finger)
         x_f, y_f, duration = x_f + v_x * elapsed, y_f + v_y * elapsed, duration - elapsed
         if elapsed > 0.0:
             _, _, d, l = contact(sigma, piece_at(sigma, path), path, r)
             x, y = reach(angle + tangent_angle(sigma, path), d, l, r)
-            x, y = x_f - x, y_f - y
+            pose = Pose(x_f - x, y_f - y, angle)
     if mode == FREE:  # the object is convex and stands still: a finger that leaves it is gone
         near = sigma
-        sigma, gap = clearance(x, y, angle, x_f + v_x * duration, y_f + v_y * duration, path, r)
+        sigma, gap = clearance(pose, x_f + v_x * duration, y_f + v_y * duration, path, r)
         touching = gap <= TOUCH
-        around = path[-1, SIGMA]
         sigma += around * math.floor((near - sigma) / around + 0.5)
-    return x, y, angle, sigma, touching, mode
+    return pose, sigma, touching, mode

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tactile_push.mechanics.body import Body, Finger, Pose
 from tactile_push.mechanics.compiled import Array
 from tactile_push.mechanics.contact import TOUCH, clearance
 from tactile_push.mechanics.friction import check_friction, friction_cone
@@ -16,23 +17,6 @@ from tactile_push.mechanics.push import move_finger
 from tactile_push.mechanics.support import Support
 
 ROUNDING = 1e-6  # how far outside the outline a support point may be, in units of its length
-
-
-@dataclass(frozen=True)
-class Pose:
-    """Position of an object's centre of mass and its orientation.
-
-    Parameters
-    ----------
-    x, y : float
-        Position [m].
-    angle : float
-        Orientation [rad], counterclockwise.
-    """
-
-    x: float
-    y: float
-    angle: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,6 +99,26 @@ class Slider:
             _check_balance(loaded, centre_of_mass)
         return cls(outline.about(*support.centre), support.c, surface.points if exact else None)
 
+    def body(self, r: float) -> Body:
+        """Return the object as the compiled functions take it.
+
+        Parameters
+        ----------
+        r : float
+            Radius of the finger's disk [m].
+
+        Returns
+        -------
+        Body
+            The object.
+
+        Raises
+        ------
+        ValueError
+            If the radius is not positive and finite.
+        """
+        return Body(self.outline.path(r), self.c, self.points)
+
     def pushed(
         self,
         pose: Pose,
@@ -147,30 +151,19 @@ class Slider:
             If finger and object overlap at the start, or a number is out of its range.
         """
         check_friction(mu_c)
-        numbers = (pose.x, pose.y, pose.angle, *start, *end)
+        numbers = (*pose, *start, *end)
         if not np.isfinite(numbers).all():
             raise ValueError(f'pose, start, end: expected finite numbers, got {numbers}')
-        path = self.outline.path(r)
-        sigma, gap = clearance(pose.x, pose.y, pose.angle, *start, path, r)
+        body = self.body(r)
+        pose = Pose(*map(float, pose))
+        sigma, gap = clearance(pose, *start, body.path, r)
         if gap < -ROUNDING * self.outline.length:
             raise ValueError(f'start: expected a finger clear of the object, got a gap of {gap} m')
-        x, y, angle, _, _, _ = move_finger(
-            pose.x,
-            pose.y,
-            pose.angle,
-            sigma,
-            gap <= TOUCH,
-            *start,
-            end[0] - start[0],
-            end[1] - start[1],
-            1.0,
-            path,
-            self.c,
-            self.points,
-            *friction_cone(mu_c),
-            r,
-        )
-        return Pose(x, y, angle)
+        way = end[0] - start[0], end[1] - start[1]
+        cos_alpha, sin_alpha = friction_cone(mu_c)
+        finger = Finger(cos_alpha, sin_alpha, r)
+        pose, _, _, _ = move_finger(pose, sigma, gap <= TOUCH, *start, *way, 1.0, body, finger)
+        return pose
 
 
 def _check_balance(points: Array, centre_of_mass: tuple[float, float]) -> None:

@@ -8,15 +8,26 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from tactile_push.control import AHEAD
-from tactile_push.mechanics import Slider, check_friction, friction_cone
-from tactile_push.mechanics.compiled import Array, compiled
+from tactile_push.mechanics import Body, Finger, Slider, check_friction, friction_cone
+from tactile_push.mechanics.compiled import Array, compiled, equation
 from tactile_push.mechanics.contact import CURVATURE
-from tactile_push.simulation.rollout import QUANTITIES, check_ahead, check_time, check_towards, run
+from tactile_push.simulation.rollout import (
+    QUANTITIES,
+    LawNumbers,
+    Periods,
+    ServoNumbers,
+    Start,
+    check_ahead,
+    check_time,
+    check_towards,
+    run,
+)
 from tactile_push.simulation.servo import Servo
 
 CHUNKS_PER_WORKER = 8
@@ -62,24 +73,47 @@ class Rollouts:
     settle_step: npt.NDArray[np.int64]
 
 
+class Bodies(NamedTuple):
+    """Objects side by side: object j has rows ends[j] to ends[j + 1] of all paths and points."""
+
+    paths: Array
+    path_ends: npt.NDArray[np.int64]
+    c: Array
+    points: Array | None
+    point_ends: npt.NDArray[np.int64]
+
+
+class Runs(NamedTuple):
+    """A row per run: start, law, friction cone, index of the object, and servo if there is one."""
+
+    starts: Array
+    laws: Array
+    cones: Array
+    objects: npt.NDArray[np.int64]
+    servos: Array | None
+
+
+# What may be None is an argument, or numba could not choose when it compiles.
+@equation
+def _support(points: Array | None, first: int, last: int) -> Array | None:
+    """Cut an object's support points out of all."""
+    return None if points is None else points[:, first:last]
+
+
+@equation
+def _servo(servos: Array | None, i: int) -> ServoNumbers | None:
+    """Take the servo of a run, if there are servos."""
+    return None if servos is None else ServoNumbers(servos[i, 0], servos[i, 1], servos[i, 2])
+
+
 @compiled
 def _run_many(
     first: int,
     last: int,
-    starts: Array,
-    laws: Array,
-    cones: Array,
-    slider: npt.NDArray[np.int64],
-    c: Array,
-    paths: Array,
-    path_ends: npt.NDArray[np.int64],
-    points: Array | None,
-    point_ends: npt.NDArray[np.int64],
-    steps: int,
-    period: float,
-    belt_speed: float,
+    runs: Runs,
+    bodies: Bodies,
+    periods: Periods,
     r: float,
-    servos: Array | None,
     band: float,
     histories: Array,
     ends: npt.NDArray[np.int64],
@@ -89,36 +123,18 @@ def _run_many(
     for i in range(first, last):
         if stop[0]:
             return
-        j = slider[i]
-        path = paths[path_ends[j] : path_ends[j + 1]]
-        if points is None:  # noqa: SIM108, which numba could not decide when compiling
-            support = None
-        else:
-            support = points[:, point_ends[j] : point_ends[j + 1]]
-        if servos is None:  # noqa: SIM108
-            servo = None
-        else:
-            servo = servos[i]
+        j = runs.objects[i]
+        path = bodies.paths[bodies.path_ends[j] : bodies.path_ends[j + 1]]
+        support = _support(bodies.points, bodies.point_ends[j], bodies.point_ends[j + 1])
+        start, law, cone = runs.starts[i], runs.laws[i], runs.cones[i]
         ends[i, 0], ends[i, 1] = run(
-            starts[i, 0],
-            starts[i, 1],
-            starts[i, 2],
-            laws[i, 0],
-            laws[i, 1],
-            laws[i, 2],
-            laws[i, 3],
-            laws[i, 4],
+            Start(start[0], start[1], start[2]),
+            LawNumbers(law[0], law[1], law[2], law[3], law[4]),
             None,
-            steps,
-            period,
-            belt_speed,
-            path,
-            c[j],
-            support,
-            cones[i, 0],
-            cones[i, 1],
-            r,
-            servo,
+            periods,
+            Body(path, bodies.c[j], support),
+            Finger(cone[0], cone[1], r),
+            _servo(runs.servos, i),
             band,
             histories[i],
         )
@@ -261,42 +277,27 @@ def rollouts(
         raise ValueError('slider: expected all with points or all without, got both')
     histories = np.full((count, steps + 1 if history else 1, QUANTITIES), np.nan)
     ends = np.empty((count, 2), dtype=np.int64)
-    starts = np.stack([start['theta'], sigma, start['phi']], axis=1)
-    laws = np.stack(
-        [start[name] for name in ('kp', 'kd', 'theta_desired', 'phi_min', 'phi_max')], axis=1
-    )
-    cones = np.array([friction_cone(friction) for friction in start['mu_c'].tolist()])
     servos = None
     if servo is not None:
         servos = np.stack([start[f'servo.{one.name}'] for one in fields(Servo)], axis=1)
-    ratios = np.array([one.c for one in objects])
-    path_ends = np.cumsum([0, *(len(path) for path in paths)])
-    point_ends = np.cumsum([0, *(points.shape[1] for points in supports)])
-    all_paths = np.concatenate(paths)
-    all_points = np.concatenate(supports, axis=1) if supports else None
+    runs = Runs(
+        np.stack([start['theta'], sigma, start['phi']], axis=1),
+        np.stack([start[name] for name in LawNumbers._fields], axis=1),
+        np.array([friction_cone(friction) for friction in start['mu_c'].tolist()]),
+        which,
+        servos,
+    )
+    bodies = Bodies(
+        np.concatenate(paths),
+        np.cumsum([0, *(len(path) for path in paths)]),
+        np.array([one.c for one in objects]),
+        np.concatenate(supports, axis=1) if supports else None,
+        np.cumsum([0, *(points.shape[1] for points in supports)]),
+    )
+    periods = Periods(steps, period, belt_speed)
 
     def run_chunk(borders: tuple[int, int]) -> None:
-        _run_many(
-            *borders,
-            starts,
-            laws,
-            cones,
-            which,
-            ratios,
-            all_paths,
-            path_ends,
-            all_points,
-            point_ends,
-            steps,
-            period,
-            belt_speed,
-            radius,
-            servos,
-            band,
-            histories,
-            ends,
-            stop,
-        )
+        _run_many(*borders, runs, bodies, periods, radius, band, histories, ends, stop)
 
     stop = np.zeros(1, dtype=np.int64)  # what the user's interrupt sets
     workers = len(os.sched_getaffinity(0))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from tactile_push.mechanics import (
     FREE,
     MODES,
+    Finger,
     Outline,
     Pose,
     Slider,
@@ -168,7 +169,7 @@ class Rig:
     def __init__(self, config: RigConfig, faults: Faults = NO_FAULTS) -> None:
         self.config = config
         self.faults = faults
-        self._path = config.slider.outline.path(config.radius)
+        self._body = config.slider.body(config.radius)
         # The knuckle points across the belt, the pole along it.
         self._home = config.finger.forward(math.pi - config.finger.mount_angle, -math.pi / 2.0)
         self._commands = DelayLine()
@@ -182,7 +183,7 @@ class Rig:
         self.mode = FREE
         self.phi = math.pi / 2.0
         self.at_workspace_limit = False
-        angle = config.theta - tangent_angle(self.sigma, self._path)
+        angle = config.theta - tangent_angle(self.sigma, self._body.path)
         d, l = self._contact
         x, y = reach(config.theta, d, l, config.radius)
         self.object_pose = Pose(-x, -y, angle)
@@ -190,7 +191,7 @@ class Rig:
     @property
     def theta(self) -> float:
         """Angle of the edge or tangent that touches or is nearest to the finger [rad]."""
-        return self.object_pose.angle + tangent_angle(self.sigma, self._path)
+        return self.object_pose.angle + tangent_angle(self.sigma, self._body.path)
 
     @property
     def d(self) -> float:
@@ -200,8 +201,8 @@ class Rig:
     @property
     def _contact(self) -> tuple[float, float]:
         """The paper's d and l of the contact [m]."""
-        piece = piece_at(self.sigma, self._path)
-        _, _, d, l = contact(self.sigma, piece, self._path, self.config.radius)
+        piece = piece_at(self.sigma, self._body.path)
+        _, _, d, l = contact(self.sigma, piece, self._body.path, self.config.radius)
         return d, l
 
     @property
@@ -212,16 +213,8 @@ class Rig:
     @property
     def gap(self) -> float:
         """Distance between finger and object [m]."""
-        pose = self.object_pose
-        _, gap = clearance(
-            pose.x,
-            pose.y,
-            pose.angle,
-            self.finger_x,
-            self.finger_y,
-            self._path,
-            self.config.radius,
-        )
+        x, y, radius = self.finger_x, self.finger_y, self.config.radius
+        _, gap = clearance(self.object_pose, x, y, self._body.path, radius)
         return gap
 
     @property
@@ -331,11 +324,8 @@ class Rig:
             self.mode = FREE
             return
         self.phi = math.atan2(v_y, v_x)
-        pose, slider = self.object_pose, self.config.slider
-        x, y, angle, self.sigma, self.touching, self.mode = move_finger(
-            pose.x,
-            pose.y,
-            pose.angle,
+        self.object_pose, self.sigma, self.touching, self.mode = move_finger(
+            self.object_pose,
             self.sigma,
             self.touching,
             self.finger_x,
@@ -343,12 +333,8 @@ class Rig:
             v_x,
             v_y,
             duration,
-            self._path,
-            slider.c,
-            slider.points,
-            *self._friction_cone,
-            self.config.radius,
+            self._body,
+            Finger(*self._friction_cone, self.config.radius),
         )
-        self.object_pose = Pose(x, y, angle)
         self.finger_x += v_x * duration
         self.finger_y += v_y * duration

@@ -4,6 +4,7 @@
 
 import math
 from dataclasses import astuple, dataclass
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -11,26 +12,62 @@ import numpy.typing as npt
 from tactile_push.control import AHEAD, PushLaw, finger_velocity, push_angle
 from tactile_push.mechanics import (
     FREE,
+    Body,
+    Finger,
+    Pose,
     clearance,
     contact,
     friction_cone,
     piece_at,
-    push,
     reach,
     tangent_angle,
 )
 from tactile_push.mechanics.compiled import Array, compiled, equation
 from tactile_push.mechanics.contact import TOUCH
+from tactile_push.mechanics.push import push_body
 from tactile_push.simulation.rig import RigConfig
 from tactile_push.simulation.servo import Servo, lagged, quantised
 
-THETA, PHI, D, X, Y, MODE = range(6)
+THETA, PHI, D, X, Y, MODE = range(6)  # columns of a history
 QUANTITIES = 6
-TIME_CONSTANT, DELAY, QUANTUM = range(3)
 WHOLE = 1e-9  # rounding of a delay that is a whole number of periods
 
 _push_angle = equation(push_angle)
 _finger_velocity = equation(finger_velocity)
+
+
+class Start(NamedTuple):
+    """Where a run starts: angle of the tangent [rad], contact [m] and first push angle [rad]."""
+
+    theta: float
+    sigma: float
+    phi: float
+
+
+class LawNumbers(NamedTuple):
+    """The numbers of the law (18), in the order in which `push_angle` takes them."""
+
+    kp: float
+    kd: float
+    theta_desired: float
+    phi_min: float
+    phi_max: float
+
+
+class ServoNumbers(NamedTuple):
+    """The numbers of a `Servo` [s, s, m/s]."""
+
+    time_constant: float
+    delay: float
+    quantum: float
+
+
+class Periods(NamedTuple):
+    """How many control periods a run has, how long each one is [s], and the belt's speed [m/s]."""
+
+    steps: int
+    period: float
+    belt_speed: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,31 +102,23 @@ class Rollout:
 
 @equation
 def _record(
-    row: Array,
-    theta: float,
-    phi: float,
-    sigma: float,
-    x_f: float,
-    y_f: float,
-    mode: int,
-    path: Array,
-    r: float,
+    row: Array, start: Start, x_f: float, y_f: float, mode: int, path: Array, r: float
 ) -> None:
-    """Write down the start of a step."""
-    _, _, d, l = contact(sigma, piece_at(sigma, path), path, r)
-    x, y = reach(theta, d, l, r)
-    row[THETA], row[PHI], row[D], row[X], row[Y] = theta, phi, d, x_f - x, y_f - y
-    row[MODE] = mode
+    """Write down the start of a control period."""
+    _, _, d, l = contact(start.sigma, piece_at(start.sigma, path), path, r)
+    x, y = reach(start.theta, d, l, r)
+    row[THETA], row[PHI], row[D] = start.theta, start.phi, d
+    row[X], row[Y], row[MODE] = x_f - x, y_f - y, mode
 
 
 @equation
 def _left_behind(
     angle: float, sigma: float, v_x: float, v_y: float, rest: float, path: Array, r: float
 ) -> tuple[float, bool]:
-    """Move on a finger that pushes no longer: where it is nearest, and whether it is gone."""
+    """Move a finger on that no longer pushes: where it is nearest, and whether it is gone."""
     _, _, d, l = contact(sigma, piece_at(sigma, path), path, r)
     x, y = reach(angle + tangent_angle(sigma, path), d, l, r)
-    sigma, gap = clearance(-x, -y, angle, v_x * rest, v_y * rest, path, r)
+    sigma, gap = clearance(Pose(-x, -y, angle), v_x * rest, v_y * rest, path, r)
     return sigma, gap > TOUCH
 
 
@@ -100,32 +129,26 @@ def _follow(
     commands: Array,
     k: int,
     velocity: float,
-    servo: Array,
-    v_y: float,
-    period: float,
-    path: Array,
-    c: float,
-    points: Array | None,
-    cos_alpha: float,
-    sin_alpha: float,
-    r: float,
+    servo: ServoNumbers,
+    periods: Periods,
+    body: Body,
+    finger: Finger,
 ) -> tuple[float, float, bool, int, float, float]:
     """Push for a period with a finger that follows the commands by its servo.
 
-    The commands of this and of earlier periods are kept in a ring. What arrives is at first the
-    older, then the newer of the two that the delay lets through in this period.
+    A ring keeps the commands of this and of earlier periods. The delay lets two of them through in
+    this period, first the older, then the newer.
     """
-    size, way, gone, mode = len(commands), 0.0, False, FREE
-    late = max(0.0, servo[DELAY] - (size - 2) * period)  # of the newer one, in the period
-    for age, duration in ((size - 1, late), (size - 2, period - late)):
-        command = quantised(commands[(k - age) % size], servo[QUANTUM])
+    size, way, gone, mode, v_y = len(commands), 0.0, False, FREE, periods.belt_speed
+    late = max(0.0, servo.delay - (size - 2) * periods.period)  # of the newer one, in the period
+    for age, duration in ((size - 1, late), (size - 2, periods.period - late)):
+        command = quantised(commands[(k - age) % size], servo.quantum)
         while duration > 0.0 and not gone:
-            elapsed, mean, velocity = lagged(velocity, command, servo[TIME_CONSTANT], duration)
-            angle, sigma, pushed, mode = push(
-                angle, sigma, mean, v_y, elapsed, path, c, points, cos_alpha, sin_alpha, r
-            )
+            elapsed, mean, velocity = lagged(velocity, command, servo.time_constant, duration)
+            angle, sigma, pushed, mode = push_body(angle, sigma, mean, v_y, elapsed, body, finger)
             if pushed < elapsed:
-                sigma, gone = _left_behind(angle, sigma, mean, v_y, elapsed - pushed, path, r)
+                rest = elapsed - pushed
+                sigma, gone = _left_behind(angle, sigma, mean, v_y, rest, body.path, finger.r)
             way += mean * elapsed
             duration -= elapsed
     return angle, sigma, gone, mode, velocity, way
@@ -133,25 +156,13 @@ def _follow(
 
 @compiled
 def run(
-    theta: float,
-    sigma: float,
-    phi: float,
-    kp: float,
-    kd: float,
-    theta_desired: float,
-    phi_min: float,
-    phi_max: float,
+    start: Start,
+    law: LawNumbers,
     pushes: Array | None,
-    steps: int,
-    period: float,
-    belt_speed: float,
-    path: Array,
-    c: float,
-    points: Array | None,
-    cos_alpha: float,
-    sin_alpha: float,
-    r: float,
-    servo: Array | None,
+    periods: Periods,
+    body: Body,
+    finger: Finger,
+    servo: ServoNumbers | None,
     band: float,
     history: Array,
 ) -> tuple[int, int]:
@@ -159,75 +170,82 @@ def run(
 
     Parameters
     ----------
-    theta, sigma : float
-        Angle of the tangent [rad] and contact along the disk's path [m] at the start.
-    phi : float
-        First push angle [rad].
-    kp, kd, theta_desired, phi_min, phi_max : float
-        The law, see `push_angle`.
+    start : Start
+        Where the run starts.
+    law : LawNumbers
+        The law.
     pushes : ndarray, shape (steps + 1,), or None
         Push angles [rad] instead of the law; the last one drives nothing.
-    steps : int
-        Number of control periods.
-    period : float
-        Control period [s].
-    belt_speed : float
-        Speed of the belt, v_y [m/s].
-    path, c, points, cos_alpha, sin_alpha, r
-        As `push` takes them.
-    servo : ndarray, shape (3,), or None
-        Time constant [s], delay [s] and velocity quantum [m/s] of a finger that does not follow
-        its command perfectly.
+    periods : Periods
+        The control periods and the belt.
+    body : Body
+        The object.
+    finger : Finger
+        The finger.
+    servo : ServoNumbers or None
+        How the finger follows its command; None for perfectly.
     band : float
         How near theta must stay to its desired value to have settled [rad].
     history : ndarray, shape (steps + 1, 6) or (1, 6)
-        Takes what happens at the start of every step or of the last one.
+        Takes the quantities at the start of every period, or of the last one.
 
     Returns
     -------
     done : int
-        Number of the step at whose start finger and object touched for the last time.
+        Number of the period at whose start finger and object touched for the last time.
     settled : int
-        First step from which theta stays in the band, or -1.
+        First period from which theta stays in the band, or -1.
     """
+    path, r = body.path, finger.r
+    steps, period, belt_speed = periods
+    theta, sigma, phi = start
     angle = theta - tangent_angle(sigma, path)
     x_f, y_f, mode, before, settled = 0.0, 0.0, FREE, theta, 0
     all_steps = len(history) > steps
     if servo is not None:
         velocity = 0.0
-        commands = np.zeros(math.floor(servo[DELAY] / period + WHOLE) + 2)  # under way
+        commands = np.zeros(math.floor(servo.delay / period + WHOLE) + 2)  # under way
     for k in range(steps + 1):
         row = k if all_steps else 0
         theta = angle + tangent_angle(sigma, path)
         if pushes is None:
             if k > 0:
-                phi = _push_angle(phi, theta, before, kp, kd, theta_desired, phi_min, phi_max)
+                phi = _push_angle(
+                    phi,
+                    theta,
+                    before,
+                    law.kp,
+                    law.kd,
+                    law.theta_desired,
+                    law.phi_min,
+                    law.phi_max,
+                )
         else:
             phi = pushes[k]
         before = theta
-        if not abs(theta - theta_desired) <= band:
+        if not abs(theta - law.theta_desired) <= band:
             settled = k + 1
+        now = Start(theta, sigma, phi)
         if all_steps or k == steps:
-            _record(history[row], theta, phi, sigma, x_f, y_f, mode, path, r)
+            _record(history[row], now, x_f, y_f, mode, path, r)
         if k == steps:
             break
-        sigma_before, v_x = sigma, _finger_velocity(phi, belt_speed)
+        v_x = _finger_velocity(phi, belt_speed)
         gone = False
         if servo is None:
             way = v_x * period
-            angle, sigma, elapsed, mode = push(
-                angle, sigma, v_x, belt_speed, period, path, c, points, cos_alpha, sin_alpha, r
+            angle, sigma, elapsed, mode = push_body(
+                angle, sigma, v_x, belt_speed, period, body, finger
             )
             if elapsed < period:
                 sigma, gone = _left_behind(angle, sigma, v_x, belt_speed, period - elapsed, path, r)
         else:
             commands[k % len(commands)] = v_x
             angle, sigma, gone, mode, velocity, way = _follow(
-                *(angle, sigma, commands, k, velocity, servo),
-                *(belt_speed, period, path, c, points, cos_alpha, sin_alpha, r),
+                angle, sigma, commands, k, velocity, servo, periods, body, finger
             )
         if gone:
-            _record(history[row], theta, phi, sigma_before, x_f, y_f, mode, path, r)
+            _record(history[row], now, x_f, y_f, mode, path, r)
             return k, -1
         history[row, MODE] = mode
         x_f, y_f = x_f + way, y_f + belt_speed * period
@@ -282,25 +300,16 @@ def rollout(
         law = PushLaw(0.0, 0.0, config.theta)
     check_towards(law.phi if pushes is None else pushes[0], config.theta)
     history = np.empty((steps + 1, QUANTITIES))
+    sigma = config.slider.outline.sigma(config.radius, d=config.d)
+    cos_alpha, sin_alpha = friction_cone(config.mu_c)
     done, _ = run(
-        config.theta,
-        config.slider.outline.sigma(config.radius, d=config.d),
-        law.phi,
-        law.kp,
-        law.kd,
-        law.theta_desired,
-        law.phi_min,
-        law.phi_max,
+        Start(config.theta, sigma, law.phi),
+        LawNumbers(law.kp, law.kd, law.theta_desired, law.phi_min, law.phi_max),
         pushes,
-        steps,
-        period,
-        config.belt_speed,
-        config.slider.outline.path(config.radius),
-        config.slider.c,
-        config.slider.points,
-        *friction_cone(config.mu_c),
-        config.radius,
-        None if servo is None else np.array(astuple(servo)),
+        Periods(steps, period, config.belt_speed),
+        config.slider.body(config.radius),
+        Finger(cos_alpha, sin_alpha, config.radius),
+        None if servo is None else ServoNumbers(*astuple(servo)),
         math.inf,
         history,
     )

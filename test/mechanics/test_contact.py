@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tactile_push.mechanics import Outline, clearance, contact, piece_at, reach, tangent_angle
+from tactile_push.mechanics import Outline, Pose, clearance, contact, piece_at, reach, tangent_angle
 from tactile_push.mechanics.contact import rotated
 
 checked = settings(derandomize=True, deadline=None, max_examples=60)
@@ -320,7 +320,7 @@ def test_a_finger_that_reaches_a_contact_is_nearest_to_it(outline):
         _, _, d, l = contact(sigma, 0, path, FINGER)
         x_f, y_f = reach(angle + tangent_angle(sigma, path), d, l, FINGER)
 
-        found, gap = clearance(x, y, angle, x + x_f, y + y_f, path, FINGER)
+        found, gap = clearance(Pose(x, y, angle), x + x_f, y + y_f, path, FINGER)
 
         assert gap == pytest.approx(0.0, abs=1e-14)
         assert math.remainder(found - sigma, path[-1, 0]) == pytest.approx(0.0, abs=1e-13)
@@ -337,7 +337,7 @@ def test_the_clearance_of_a_polygon_is_its_distance_less_the_radius(
     cos, sin = math.cos(angle), math.sin(angle)
     x_f, y_f = x + cos * p_x - sin * p_y, y + sin * p_x + cos * p_y
 
-    sigma, gap = clearance(x, y, angle, x_f, y_f, path, r)
+    sigma, gap = clearance(Pose(x, y, angle), x_f, y_f, path, r)
 
     assert gap == pytest.approx(distance_to_polygon(corners, p_x, p_y) - r, rel=0, abs=1e-14)
     centre = walked(corners, r, sigma)[2]
@@ -351,7 +351,7 @@ def test_the_clearance_of_an_ellipse_is_its_distance_less_the_radius(a, b):
     for x, y in random.uniform(-0.1, 0.1, (200, 2)):
         expected = distance_to_polygon(samples, x, y) - FINGER
 
-        sigma, gap = clearance(0.3, -0.2, math.pi / 2.0, 0.3 - y, -0.2 + x, path, FINGER)
+        sigma, gap = clearance(Pose(0.3, -0.2, math.pi / 2.0), 0.3 - y, -0.2 + x, path, FINGER)
 
         assert gap == pytest.approx(expected, rel=0, abs=1e-6)
         assert math.dist(on_path(sigma, path, FINGER), (x, y)) == pytest.approx(
@@ -366,7 +366,7 @@ def test_the_clearance_of_a_circle_is_known(angle, bearing, back):
     away = 0.0285 + FINGER + back
     x_f, y_f = 0.1 + away * math.sin(bearing), 0.2 - away * math.cos(bearing)
 
-    sigma, gap = clearance(0.1, 0.2, angle, x_f, y_f, path, FINGER)
+    sigma, gap = clearance(Pose(0.1, 0.2, angle), x_f, y_f, path, FINGER)
 
     # From the lowest point, where the tangent's angle is 0, around by bearing - angle.
     assert gap == pytest.approx(back, rel=0, abs=1e-14)
@@ -382,7 +382,7 @@ def test_the_clearance_of_a_circle_is_known(angle, bearing, back):
 def test_the_clearance_before_an_edge_is_that_of_the_edge(along, back):
     path = Outline.rectangle(0.05, 0.0475).path(FINGER)
 
-    sigma, gap = clearance(0.0, 0.0, 0.0, along, -0.02375 - FINGER - back, path, FINGER)
+    sigma, gap = clearance(Pose(0.0, 0.0, 0.0), along, -0.02375 - FINGER - back, path, FINGER)
 
     assert gap == pytest.approx(back, rel=0, abs=1e-16)
     assert sigma == pytest.approx(0.025 + along, rel=1e-15)
@@ -392,7 +392,7 @@ def test_the_clearance_before_a_corner_is_that_of_the_corner():
     # 3 and 4 to the side of and below the corner (1, -1) of a square: 5 away.
     path = Outline.rectangle(2.0, 2.0).path(0.5)
 
-    sigma, gap = clearance(0.0, 0.0, 0.0, 4.0, -5.0, path, 0.5)
+    sigma, gap = clearance(Pose(0.0, 0.0, 0.0), 4.0, -5.0, path, 0.5)
 
     assert gap == pytest.approx(4.5, rel=1e-15)
     assert sigma == pytest.approx(2.0 + 0.5 * math.atan2(3.0, 4.0), rel=1e-15)
@@ -400,6 +400,6 @@ def test_the_clearance_before_a_corner_is_that_of_the_corner():
 
 @every_outline
 def test_the_clearance_of_a_finger_at_the_centre_of_mass_is_negative(outline):
-    _, gap = clearance(0.1, 0.2, 0.3, 0.1, 0.2, outline.path(FINGER), FINGER)
+    _, gap = clearance(Pose(0.1, 0.2, 0.3), 0.1, 0.2, outline.path(FINGER), FINGER)
 
     assert -0.07 < gap < -FINGER

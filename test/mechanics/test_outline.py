@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tactile_push.mechanics import Outline, clearance, contact, tangent_angle
+from tactile_push.mechanics import Outline, Pose, clearance, contact, tangent_angle
 
 checked = settings(derandomize=True, deadline=None, max_examples=60)
 FINGER = 0.0135
@@ -71,7 +71,7 @@ def stadium(radius, straight, arc_points, straight_points):
 def off_outline(outline, points):
     r = 1e-3
     path = outline.path(r)
-    return max(abs(clearance(0.0, 0.0, 0.0, x, y, path, r)[1] + r) for x, y in points)
+    return max(abs(clearance(Pose(0.0, 0.0, 0.0), x, y, path, r)[1] + r) for x, y in points)
 
 
 def ends_of_first_edge(outline):

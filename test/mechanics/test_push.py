@@ -13,7 +13,10 @@ from tactile_push.mechanics import (
     SLIP_LEFT,
     SLIP_RIGHT,
     STICK,
+    Body,
+    Finger,
     Outline,
+    Pose,
     approach,
     clearance,
     contact,
@@ -92,10 +95,11 @@ def pushed(outline, sigma, beta, length, mu_c=math.inf, c=BLOCK_C, support=None,
 
 
 def moved(outline, state, finger, velocity, duration, mu_c, c, support=None, r=FINGER):
-    return move_finger(
-        *state[:5], *finger, *velocity, duration, outline.path(r), c, support,
-        *friction_cone(mu_c), r,
-    )  # fmt: skip
+    body, end = Body(outline.path(r), c, support), Finger(*friction_cone(mu_c), r)
+    pose, *rest = move_finger(
+        Pose(*state[:3]), *state[3:5], *finger, *velocity, duration, body, end
+    )
+    return (*pose, *rest)
 
 
 def nearest_on_polygon(corners):
@@ -320,7 +324,9 @@ def law_18_on_the_papers_block(periods):
 def test_rates_on_an_edge_as_computed_by_hand(d, mu_c, expected):
     path = Outline.rectangle(4.0, 2.0).path(1.0)
 
-    rates = push_rates(0.0, 2.0 + d, 0, 0.0, 2.0, path, 1.0, None, *friction_cone(mu_c), 1.0)
+    rates = push_rates(
+        0.0, 2.0 + d, 0, 0.0, 2.0, Body(path, 1.0, None), Finger(*friction_cone(mu_c), 1.0)
+    )
 
     assert rates[2] == expected[2]
     assert rates[:2] == pytest.approx(expected[:2], rel=0, abs=1e-14)
@@ -334,7 +340,9 @@ def test_rates_on_a_disk_as_computed_by_hand():
     path = Outline.circle(1.0).path(1.0)
     v = math.sqrt(0.5)
 
-    rates = push_rates(0.0, 0.0, 0, v, v, path, 1.0, None, *friction_cone(math.inf), 1.0)
+    rates = push_rates(
+        0.0, 0.0, 0, v, v, Body(path, 1.0, None), Finger(*friction_cone(math.inf), 1.0)
+    )
 
     assert rates[2] == STICK
     assert rates[:2] == pytest.approx((omega, -omega), rel=1e-14)
@@ -356,8 +364,8 @@ def test_the_rates_are_those_of_the_paper_in_the_axes_of_the_support(
 
     # The finger's velocity is given in axes from which the object has turned since.
     omega, sigma_dot, mode = push_rates(
-        turn, sigma, 0, cos * v_x - sin * v_y, sin * v_x + cos * v_y, path, c, None,
-        *friction_cone(mu_c), FINGER,
+        turn, sigma, 0, cos * v_x - sin * v_y, sin * v_x + cos * v_y, Body(path, c, None),
+        Finger(*friction_cone(mu_c), FINGER),
     )  # fmt: skip
 
     expected = twist_by_the_paper((v_x, v_y), x_c, normal, mu_c, c)
@@ -564,7 +572,7 @@ def test_the_disk_touches_or_is_away_and_never_inside(body, share, beta, length,
         state = moved(outline, before, finger, (v_x, v_y), length, mu_c, c)
 
         x_f, y_f = finger[0] + length * v_x, finger[1] + length * v_y
-        nearest, gap = clearance(*state[:3], x_f, y_f, path, FINGER)
+        nearest, gap = clearance(Pose(*state[:3]), x_f, y_f, path, FINGER)
         if state[4]:
             assert gap == pytest.approx(0.0, abs=1e-12)
             assert math.remainder(state[3] - nearest, path[-1, 0]) == pytest.approx(0.0, abs=1e-9)
@@ -589,7 +597,7 @@ def test_the_disk_touches_or_is_away_on_support_points_too(body, share, beta, le
     state = moved(outline, state, (0.0, 0.0), velocity, length, mu_c, ratio(support), support)
 
     finger = length * velocity[0], length * velocity[1]
-    _, gap = clearance(*state[:3], *finger, path, FINGER)
+    _, gap = clearance(Pose(*state[:3]), *finger, path, FINGER)
     if state[4]:
         assert gap == pytest.approx(0.0, abs=1e-12)
     else:
@@ -1014,7 +1022,7 @@ def test_a_finger_approaches_an_edge_by_its_velocity_along_the_normal(beta, gap)
     along = SPEED * math.cos(beta) * expected
 
     elapsed, sigma, touching = approach(
-        0.0, 0.0, 0.0, 0.005 - along, -BLOCK_L - FINGER - gap, SPEED * math.cos(beta),
+        Pose(0.0, 0.0, 0.0), 0.005 - along, -BLOCK_L - FINGER - gap, SPEED * math.cos(beta),
         SPEED * math.sin(beta), 2.0 * expected, path, FINGER,
     )  # fmt: skip
 
@@ -1031,7 +1039,7 @@ def test_a_finger_approaches_a_circle_when_the_centres_are_both_radii_apart(offs
     expected = (1.0 - both * math.sqrt(1.0 - offset**2)) / speed
 
     elapsed, sigma, touching = approach(
-        0.2, 0.3, 0.5, 0.2 + offset * both, 0.3 - 1.0, 0.0, speed, 1.0 / speed, path, FINGER
+        Pose(0.2, 0.3, 0.5), 0.2 + offset * both, 0.3 - 1.0, 0.0, speed, 1.0 / speed, path, FINGER
     )
 
     assert touching
@@ -1047,7 +1055,14 @@ def test_a_finger_approaches_a_corner_when_it_is_a_radius_away(offset):
     expected = (0.1 - FINGER * math.sqrt(1.0 - offset**2)) / SPEED
 
     elapsed, sigma, touching = approach(
-        0.0, 0.0, 0.0, 0.025 + offset * FINGER, -BLOCK_L - 0.1, 0.0, SPEED, 100.0, path, FINGER
+        Pose(0.0, 0.0, 0.0),
+        0.025 + offset * FINGER,
+        -BLOCK_L - 0.1,
+        0.0,
+        SPEED,
+        100.0,
+        path,
+        FINGER,
     )
 
     assert touching
@@ -1061,7 +1076,14 @@ def test_a_finger_that_passes_by_touches_nothing(outline, aside):
     half = 0.025 if outline is BLOCK else RADIUS
 
     elapsed, _, touching = approach(
-        0.0, 0.0, 0.0, half + FINGER + aside, -1.0, 0.0, 0.5, 4.0, outline.path(FINGER), FINGER
+        Pose(0.0, 0.0, 0.0),
+        half + FINGER + aside,
+        -1.0,
+        0.0,
+        0.5,
+        4.0,
+        outline.path(FINGER),
+        FINGER,
     )
 
     assert (elapsed, touching) == (4.0, False)
@@ -1075,7 +1097,14 @@ def test_a_finger_that_grazes_touches(outline, aside):
     height = -BLOCK_L if outline is BLOCK else 0.0
 
     elapsed, _, touching = approach(
-        0.0, 0.0, 0.0, half + FINGER - aside, -1.0, 0.0, 0.5, 4.0, outline.path(FINGER), FINGER
+        Pose(0.0, 0.0, 0.0),
+        half + FINGER - aside,
+        -1.0,
+        0.0,
+        0.5,
+        4.0,
+        outline.path(FINGER),
+        FINGER,
     )
 
     assert touching
@@ -1095,7 +1124,7 @@ def test_a_finger_that_grazes_touches(outline, aside):
 )
 def test_a_finger_that_does_not_come_touches_nothing(start, velocity, duration):
     elapsed, _, touching = approach(
-        0.0, 0.0, 0.0, 0.0, start, *velocity, duration, BLOCK.path(FINGER), FINGER
+        Pose(0.0, 0.0, 0.0), 0.0, start, *velocity, duration, BLOCK.path(FINGER), FINGER
     )
 
     assert (elapsed, touching) == (duration, False)
@@ -1105,7 +1134,7 @@ def test_a_finger_that_does_not_come_touches_nothing(start, velocity, duration):
 @pytest.mark.parametrize('velocity', [(0.0, 0.1), (0.0, 0.0), (0.0, -0.1)])
 def test_a_finger_that_touches_need_not_come(overlap, velocity):
     elapsed, sigma, touching = approach(
-        0.0, 0.0, 0.0, 0.004, -BLOCK_L - FINGER + overlap, *velocity, 1.0, BLOCK.path(FINGER),
+        Pose(0.0, 0.0, 0.0), 0.004, -BLOCK_L - FINGER + overlap, *velocity, 1.0, BLOCK.path(FINGER),
         FINGER,
     )  # fmt: skip
 
@@ -1131,7 +1160,7 @@ def test_a_finger_meets_any_polygon_at_the_first_time_at_which_it_is_near(
         return math.dist(nearest(x, y), (x, y)) - FINGER
 
     found, _, touching = approach(
-        0.0, 0.0, angle, x_f, y_f, speed * cos, speed * sin, 0.6 / speed,
+        Pose(0.0, 0.0, angle), x_f, y_f, speed * cos, speed * sin, 0.6 / speed,
         Outline.polygon(corners).path(FINGER), FINGER,
     )  # fmt: skip
 
@@ -1158,7 +1187,7 @@ def test_a_fast_finger_does_not_tunnel(body, angle, bearing, speed, mu_c):
     state = moved(outline, start, (-0.1 * v_x, -0.1 * v_y), (v_x, v_y), 0.12, mu_c, BLOCK_C)
 
     assert state[:3] != start[:3]
-    _, gap = clearance(*state[:3], 0.02 * v_x, 0.02 * v_y, outline.path(FINGER), FINGER)
+    _, gap = clearance(Pose(*state[:3]), 0.02 * v_x, 0.02 * v_y, outline.path(FINGER), FINGER)
     assert gap > -1e-12
 
 
@@ -1170,7 +1199,7 @@ def test_what_is_not_touched_does_not_move():
         assert state[:3] == start[:3]
         assert state[4:] == (False, FREE)
         # Where it is nearest at the end is told.
-        nearest, _ = clearance(*start[:3], *velocity, BLOCK.path(FINGER), FINGER)
+        nearest, _ = clearance(Pose(*start[:3]), *velocity, BLOCK.path(FINGER), FINGER)
         assert state[3] == nearest
 
 

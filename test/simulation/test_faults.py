@@ -1,14 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
 
-import dataclasses
 import math
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tactile_push.mechanics import SLIP_RIGHT, STICK, friction_cone, move_finger
+from tactile_push.mechanics import SLIP_RIGHT, STICK, Finger, friction_cone, move_finger
 from tactile_push.simulation import (
     Belt,
     Faults,
@@ -28,7 +27,7 @@ commands = st.lists(st.floats(-0.008, 0.008), min_size=1, max_size=12)
 
 def state(rig):
     """Return all that moves."""
-    return (*dataclasses.astuple(rig.object_pose), rig.sigma, rig.finger_x, rig.finger_y)
+    return (*rig.object_pose, rig.sigma, rig.finger_x, rig.finger_y)
 
 
 @given(commands, st.sampled_from([0.0, 0.3, math.inf]), st.sampled_from([0.02, 0.1]))
@@ -36,17 +35,16 @@ def state(rig):
 def test_rig_without_faults_is_one_push_a_step_to_the_bit(velocities, mu_c, duration):
     config = paper_block(mu_c=mu_c)
     rig = Rig(config)
-    path = config.slider.outline.path(config.radius)
+    body = config.slider.body(config.radius)
+    finger = Finger(*friction_cone(mu_c), config.radius)
     pose, sigma, touching, x_f, y_f = rig.object_pose, rig.sigma, True, 0.0, 0.0
-    x, y, angle = pose.x, pose.y, pose.angle
     for v_x in velocities:
         rig.step(v_x, duration)
-        x, y, angle, sigma, touching, mode = move_finger(
-            *(x, y, angle, sigma, touching, x_f, y_f, v_x, V_Y, duration),
-            *(path, config.slider.c, None, *friction_cone(mu_c), config.radius),
+        pose, sigma, touching, mode = move_finger(
+            pose, sigma, touching, x_f, y_f, v_x, V_Y, duration, body, finger
         )
         x_f, y_f = x_f + v_x * duration, y_f + V_Y * duration
-        assert state(rig) == (x, y, angle, sigma, x_f, y_f)
+        assert state(rig) == (*pose, sigma, x_f, y_f)
         assert (rig.mode, rig.touching, rig.v_x) == (mode, touching, v_x)
 
 

@@ -682,7 +682,7 @@ def test_fast_finger_does_not_tunnel_through_a_thin_object():
     rig.step(-0.001, 1.0)
     assert rig.object_pose == pose
     rig = Rig(block_config(0.0, 0.0, l=0.0005, c=0.01))
-    rig.object_pose = dataclasses.replace(pose, x=0.0, y=0.02 + R + 0.0005)
+    rig.object_pose = pose._replace(x=0.0, y=0.02 + R + 0.0005)
     rig.touching = False
     rig.step(0.0, 12.0)
     assert rig.touching
