@@ -18,6 +18,8 @@ suppress_warnings = ['config.cache']
 
 html_theme = 'sphinx_rtd_theme'
 html_theme_options = {'navigation_depth': 3}
+html_static_path = ['_static']
+html_css_files = ['site.css']
 html_show_sphinx = False
 html_copy_source = False
 
