@@ -2,44 +2,51 @@
 # SPDX-License-Identifier: Apache-2.0
 """Speed of the replay of an hour beside that of mcap's reader on the same messages.
 
-The bag has what a finger says in an hour: readings at 100 Hz, joint states at 50 Hz, what geometry
-and law made of them. It is written with the package's own functions, in no time of its own.
+The bag holds an hour of one finger: readings at 100 Hz, joint states at 50 Hz, and what geometry
+and law made of them. The steps of `tactile_push.pipeline` write it without waiting.
 """
 
 import math
 import time
 
 import pytest
-from builtin_interfaces.msg import Time
+from geometry_msgs.msg import PoseStamped, TwistStamped
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 from rclpy.serialization import serialize_message
+from sensor_msgs.msg import JointState
 
 from tactile_push.bags import BagReader, BagWriter
-from tactile_push.control import tick_values
-from tactile_push.nodes.ros.messages import (
-    ContactMessage,
-    named_values,
-    velocity_command,
+from tactile_push.interface import (
+    COMMAND,
+    CONTACT,
+    CONTROLLER_STATE,
+    GEOMETRY_STATE,
+    JOINT_STATES,
+    TACTILE,
+    TOPICS,
 )
-from tactile_push.parameters import contact_geometry, push_controller
-from tactile_push.pipeline.orientation import yaw_of_quaternion
+from tactile_push.nodes.ros.messages import filled
+from tactile_push.parameters import ContactGeometryParameters, PushControllerParameters
+from tactile_push.parameters.contact_geometry import make_finder
+from tactile_push.parameters.push_controller import make_control, make_finger
+from tactile_push.pipeline import Control, Geometry, edge_angle
+from tactile_push.pipeline.messages import joint_state_fields
 from tactile_push.pipeline.stamps import epoch_of, seconds_since
 from tactile_push.replay import replay
-from tactile_push.tactile import reading_of_contact, reading_values
+from tactile_push.tactile import reading_of_contact
 
 HOUR = 3600  # [s]
-READINGS, JOINT_STATES, TICKS = 100, 50, 10  # [Hz]
+READINGS, TURNS, TICKS = 100, 50, 10  # [Hz]
 BEGIN = 1_795_000_000  # [s]
 GOAL = 0.5  # of the reader's rate
-JOINT_STATE = 'sensor_msgs/msg/JointState'
-TOPICS = {
-    '/tactile': JOINT_STATE,
-    '/joint_states': JOINT_STATE,
-    '/contact': 'geometry_msgs/msg/PoseStamped',
-    '/contact_geometry/state': JOINT_STATE,
-    '/push_controller/state': JOINT_STATE,
-    '/finger/cmd_vel': 'geometry_msgs/msg/TwistStamped',
+MESSAGES = {
+    TACTILE: JointState,
+    JOINT_STATES: JointState,
+    CONTACT: PoseStamped,
+    GEOMETRY_STATE: JointState,
+    CONTROLLER_STATE: JointState,
+    COMMAND: TwistStamped,
 }
 
 
@@ -47,44 +54,48 @@ TOPICS = {
 def bag(tmp_path_factory):
     """Write an hour."""
     folder = tmp_path_factory.mktemp('bags') / 'hour'
-    finder = contact_geometry.make_finder(contact_geometry.ContactGeometryParameters())
-    control = push_controller.make_control(push_controller.PushControllerParameters())
     epoch = epoch_of(BEGIN)
-    message = ContactMessage()
+
+    def seconds(sec, nanosec):
+        return seconds_since(epoch, sec, nanosec)
+
+    g, p = ContactGeometryParameters(), PushControllerParameters()
+    geometry = Geometry(make_finder(g), g.joint_names, seconds)
+    push = make_control(p)
+    control = Control(push, make_finger(p), p.joint_names, seconds)
     with BagWriter(folder) as writer:
-        for topic, type_name in TOPICS.items():
-            writer.add_topic(topic, type_name)
-        control.activate(seconds_since(epoch, BEGIN, 0))
+        for topic in MESSAGES:
+            writer.add_topic(f'/{topic}', TOPICS[topic].type_name)
+        push.activate(seconds(BEGIN, 0))
         elapsed = math.nan
         for k in range(HOUR * READINGS):
             at = BEGIN * 10**9 + k * 10**9 // READINGS
-            sec, nanosec = divmod(at, 10**9)
-            stamp, now = Time(sec=sec, nanosec=nanosec), seconds_since(epoch, sec, nanosec)
+            stamp = divmod(at, 10**9)
 
-            def write(topic, content, at=at):
-                writer.write(topic, serialize_message(content), at, at)
+            def write(topic, fields, at=at):
+                data = serialize_message(filled(MESSAGES[topic](), fields))
+                writer.write(f'/{topic}', data, at, at)
 
+            now = seconds(*stamp)
             turned = 0.1 * math.sin(now)
-            if k % (READINGS // JOINT_STATES) == 0:
-                joints = {'proximal_joint': turned, 'distal_joint': 0.0}
-                write('/joint_states', named_values(stamp, joints))
-                finder.joints(now, joints.values())
+            if k % (READINGS // TURNS) == 0:
+                joints = dict(zip(p.joint_names, (turned, 0.0), strict=True))
+                write(JOINT_STATES, joint_state_fields(stamp, joints))
+                geometry.joint_states(stamp, list(joints), list(joints.values()))
             reading = reading_of_contact(0.2 * math.sin(0.3 * now), math.pi / 2.0 + turned)
             angles = {'azimuth': reading.azimuth, 'elevation': reading.elevation}
-            write('/tactile', named_values(stamp, angles))
-            contact = finder.contact(reading, now)
-            pose = message.of(contact, stamp)
-            write('/contact', pose)
-            rotation = pose.pose.orientation
-            theta = yaw_of_quaternion(rotation.x, rotation.y, rotation.z, rotation.w)
-            values = reading_values(reading, finder.joint_angle, contact.theta, '')
-            write('/contact_geometry/state', named_values(stamp, values))
-            control.feel(theta, now)
+            write(TACTILE, joint_state_fields(stamp, angles))
+            felt = geometry.tactile(stamp, list(angles), list(angles.values()))
+            for topic, fields in felt.outputs():
+                write(topic, fields)
+                if topic == CONTACT:
+                    turn = fields['pose']['orientation']
+                    control.contact(stamp, edge_angle('', 0.0, 0.0, turn['z'], turn['w']))
             if k % (READINGS // TICKS) == 0:
-                tick = control.tick(now, elapsed)
+                tick = control.tick(stamp, elapsed)
                 elapsed = 1.0 / TICKS
-                write('/finger/cmd_vel', velocity_command(tick.v_x, stamp))
-                write('/push_controller/state', named_values(stamp, tick_values(tick, control.law)))
+                for topic, fields in control.outputs(stamp, tick):
+                    write(topic, fields)
     return folder
 
 
@@ -94,7 +105,9 @@ def test_replay_of_an_hour(bag):
     began = time.process_time()
     with file.open('rb') as stream:
         reader = make_reader(stream, decoder_factories=[DecoderFactory()])
-        read = sum(1 for _ in reader.iter_decoded_messages(topics=list(TOPICS)))
+        read = sum(
+            1 for _ in reader.iter_decoded_messages(topics=[f'/{topic}' for topic in MESSAGES])
+        )
     reading = time.process_time() - began
     began = time.process_time()
     with BagReader(bag) as opened:

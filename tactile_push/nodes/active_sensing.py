@@ -13,18 +13,18 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
-from tactile_push.control import tick_of
-from tactile_push.estimation import ObjectEstimate, sensing_values, tells_pose
+from tactile_push.interface import CONTROLLER_STATE, OBJECT_POSE, SENSING_MARKERS, SENSING_STATE
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.estimate_markers import estimate_markers
-from tactile_push.nodes.ros.messages import named_values, object_pose_message
+from tactile_push.nodes.ros.messages import publish, stamp_of
 from tactile_push.nodes.ros.node_time import NodeTime
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED
 from tactile_push.parameters.active_sensing import ActiveSensingParameters, make_sensing
+from tactile_push.pipeline import Sensed, Sensing
 
-PATIENCE = 1.0  # without a control period for longer it says so [s]
+PATIENCE = 1.0  # without a control period for longer the node warns [s]
 
 
 class ActiveSensingNode(Node):
@@ -33,8 +33,8 @@ class ActiveSensingNode(Node):
     The controller's state has the reading, its age and the command of one control period together,
     so that the estimate follows from this topic alone, live and from a bag.
 
-    Its health is an error while the readings contradict the object that the parameters describe; a
-    warning as long as there is nothing to tell; well otherwise.
+    The node reports an error while the readings contradict the object that the parameters describe.
+    It warns as long as nothing is known.
     """
 
     NAME = 'active_sensing'
@@ -44,64 +44,57 @@ class ActiveSensingNode(Node):
         super().__init__(self.NAME)
         self._settings = p = declare(self, self.PARAMETERS)
         try:
-            self._sensing = make_sensing(p)
+            sensing, compiled = make_sensing(p), make_sensing(p)
         except ValueError as error:
             raise ConfigurationError(f'parameter {error}') from None
-        compiled = make_sensing(p)  # what is compiled when it is first used shall be so now
-        for tick in range(2):
+        for tick in range(2):  # compiles now what would be compiled at the first reading
             compiled.tick(0.1 * tick, 0.0, 0.0, 0.0)
-        self._time = NodeTime(self)
-        self._estimate: ObjectEstimate | None = None
-        self._ticked_at = 0.0  # on the steady clock [s]
+        self._sensing = Sensing(sensing, NodeTime(self).seconds)
+        self._sensed: Sensed | None = None
+        self._ticked_at = 0.0  # by a clock that cannot be set [s]
         self._counted = Counter(ticks=0, readings=0)
-        self._pose = self.create_publisher(PoseWithCovarianceStamped, 'object_pose', PUBLISHED)
-        self._state = self.create_publisher(JointState, 'active_sensing/state', PUBLISHED)
-        self._markers = self.create_publisher(MarkerArray, 'active_sensing/markers', PUBLISHED)
-        self.create_subscription(JointState, 'push_controller/state', self._on_tick, PUBLISHED)
+        self._outputs = {
+            SENSING_STATE: self.create_publisher(JointState, SENSING_STATE, PUBLISHED),
+            OBJECT_POSE: self.create_publisher(PoseWithCovarianceStamped, OBJECT_POSE, PUBLISHED),
+        }
+        self._markers = self.create_publisher(MarkerArray, SENSING_MARKERS, PUBLISHED)
+        self.create_subscription(JointState, CONTROLLER_STATE, self._on_tick, PUBLISHED)
         self._diagnostics = Diagnostics(self, self._health, lambda: self._counted)
 
     def _on_tick(self, message: JointState) -> None:
-        stamp, sensing = message.header.stamp, self._sensing
         try:
-            tick = tick_of(dict(zip(message.name, message.position, strict=False)))
+            sensed = self._sensing.state(stamp_of(message), message.name, message.position)
         except ValueError:
             self._counted['ticks without sense'] += 1
             return
-        now = self._time.of(stamp)
-        estimate = sensing.tick(now, tick.theta, tick.silence, tick.known_velocity)
-        self._estimate, self._ticked_at = estimate, time.monotonic()
+        self._sensed, self._ticked_at = sensed, time.monotonic()
         self._counted['ticks'] += 1
-        if sensing.forgot:
-            self._counted[f'forgot everything: {sensing.forgot}'] += 1
-        self._state.publish(named_values(stamp, sensing_values(estimate, sensing)))
-        self._counted['readings'] += sensing.took
-        if tells_pose(estimate, sensing):
-            pose = object_pose_message(estimate.pose, estimate.covariance, stamp, sensing.age)
-            self._pose.publish(pose)
+        if sensed.forgot:
+            self._counted[f'forgot everything: {sensed.forgot}'] += 1
+        self._counted['readings'] += sensed.took
+        for topic, fields in sensed.outputs():
+            publish(self._outputs[topic], fields)
         if self._markers.get_subscription_count():
-            self._markers.publish(self._drawn(estimate, stamp))
+            self._markers.publish(self._drawn(sensed, message.header.stamp))
         self._diagnostics.update()
 
-    def _drawn(self, estimate: ObjectEstimate, stamp: Time) -> MarkerArray:
-        known = self._sensing.readings > 0 and not estimate.contradiction
+    def _drawn(self, sensed: Sensed, stamp: Time) -> MarkerArray:
         p = self._settings
+        estimate = sensed.estimate if sensed.known else None
         outline = None if p.disk_radius > 0.0 else np.reshape(p.vertices, (-1, 2))
-        return estimate_markers(
-            estimate if known else None, outline, p.disk_radius, p.finger_radius, stamp
-        )
+        return estimate_markers(estimate, outline, p.disk_radius, p.finger_radius, stamp)
 
     def _health(self) -> Health:
-        estimate = self._estimate
-        if estimate is None:
+        sensed = self._sensed
+        if sensed is None:
             return Health(WARN, 'no control periods yet')
-        numbers = sensing_values(estimate, self._sensing)
-        values = {name: f'{value:.6g}' for name, value in numbers.items()}
+        values = {name: f'{value:.6g}' for name, value in sensed.values.items()}
         if time.monotonic() - self._ticked_at > PATIENCE:
             return Health(WARN, 'no control periods', values)
-        if not self._sensing.readings:
+        if not sensed.values['readings']:
             return Health(WARN, 'nothing known: no contact', values)
-        if estimate.contradiction:
-            return Health(ERROR, f'nothing known: {estimate.contradiction}', values)
+        if sensed.estimate.contradiction:
+            return Health(ERROR, f'nothing known: {sensed.estimate.contradiction}', values)
         return Health(OK, 'estimating', values)
 
 

@@ -18,17 +18,11 @@ from rclpy.timer import Timer
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from tactile_push.control import (
-    HELD,
-    STOPPED,
-    WAITING,
-    Tick,
-    plausible,
-    tick_values,
-)
+from tactile_push.control import HELD, STOPPED, WAITING, Tick
+from tactile_push.interface import COMMAND, CONTACT, CONTROLLER_STATE, JOINT_STATES, RESUME
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.managed import ManagedNode
-from tactile_push.nodes.ros.messages import FINGER_DISK, named_values, velocity_command
+from tactile_push.nodes.ros.messages import publish, stamp_of
 from tactile_push.nodes.ros.node_time import NodeTime
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
@@ -39,22 +33,22 @@ from tactile_push.parameters.push_controller import (
     make_finger,
     take_values,
 )
-from tactile_push.pipeline.orientation import yaw_of_quaternion
+from tactile_push.pipeline import Control, edge_angle
 
-# Reliable so that no single command is missed, and best effort to hear who is that himself.
+# A reliable subscription misses no command; a best-effort one hears publishers that are so, too.
 COMMANDS = (
     QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE),
     QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT),
 )
-STANDSTILL = 1.0  # besides a control period: without a tick for so long time does not go on [s]
+STANDSTILL = 1.0  # without a tick for this long after a control period, time stands still [s]
 REMEMBERED = 32  # own commands that may still be on their way back to this node, twice each
 
 
 class PushController(ManagedNode):
     """Managed node: `contact` in, `finger/cmd_vel` and `push_controller/state` out.
 
-    It also hears `joint_states`, to keep the finger in its workspace, and `finger/cmd_vel` itself,
-    to notice that somebody else commands the finger.
+    It also subscribes to `joint_states`, to keep the finger in its workspace, and to
+    `finger/cmd_vel`, to notice that somebody else commands the finger.
     """
 
     NAME = 'push_controller'
@@ -67,8 +61,13 @@ class PushController(ManagedNode):
             self._control = make_control(self._settings)
         except ValueError as error:
             raise ConfigurationError(f'parameter {error}') from None
-        self._finger = make_finger(self._settings)
         self._time = NodeTime(self)
+        self._steps = Control(
+            self._control,
+            make_finger(self._settings),
+            self._settings.joint_names,
+            self._time.seconds,
+        )
         self._timer: Timer | None = None
         self._tick: Tick | None = None
         self._ticked_at = -math.inf  # on the steady clock [s]
@@ -87,24 +86,24 @@ class PushController(ManagedNode):
             ),
             post_callback=self._on_clock_jump,
         )
-        self.create_service(Trigger, 'push_controller/resume', self._on_resume)
+        self.create_service(Trigger, RESUME, self._on_resume)
         self._diagnostics = Diagnostics(self, self._health, self._counts)
         if self._settings.autostart:
             self.autostart()
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Create the topics."""
-        self._command = self.create_lifecycle_publisher(TwistStamped, 'finger/cmd_vel', PUBLISHED)
-        self._state = self.create_lifecycle_publisher(
-            JointState, 'push_controller/state', PUBLISHED
-        )
-        self._subscriptions_made = (
-            self.create_subscription(
-                JointState, 'joint_states', self._on_joint_states, SENSOR_DATA
+        self._outputs = {
+            COMMAND: self.create_lifecycle_publisher(TwistStamped, COMMAND, PUBLISHED),
+            CONTROLLER_STATE: self.create_lifecycle_publisher(
+                JointState, CONTROLLER_STATE, PUBLISHED
             ),
-            self.create_subscription(PoseStamped, 'contact', self._on_contact, SENSOR_DATA),
+        }
+        self._subscriptions_made = (
+            self.create_subscription(JointState, JOINT_STATES, self._on_joint_states, SENSOR_DATA),
+            self.create_subscription(PoseStamped, CONTACT, self._on_contact, SENSOR_DATA),
             *(
-                self.create_subscription(TwistStamped, 'finger/cmd_vel', self._on_command, qos)
+                self.create_subscription(TwistStamped, COMMAND, self._on_command, qos)
                 for qos in COMMANDS
             ),
         )
@@ -114,7 +113,7 @@ class PushController(ManagedNode):
         """Start the law."""
         result = super().on_activate(state)
         self._control.activate(self._time.now())
-        self._steady = math.nan  # when it ticked last, on a clock that cannot be set [s]
+        self._steady = math.nan  # when it ticked last, by a clock that cannot be set [s]
         self._start_timer()
         return result
 
@@ -125,8 +124,8 @@ class PushController(ManagedNode):
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Remove the topics."""
-        self.destroy_lifecycle_publisher(self._command)
-        self.destroy_lifecycle_publisher(self._state)
+        for publisher in self._outputs.values():
+            self.destroy_lifecycle_publisher(publisher)
         for subscription in self._subscriptions_made:
             self.destroy_subscription(subscription)
         return TransitionCallbackReturn.SUCCESS
@@ -187,31 +186,18 @@ class PushController(ManagedNode):
             self._on_tick()
 
     def _on_contact(self, message: PoseStamped) -> None:
-        rotation = message.pose.orientation
-        theta = yaw_of_quaternion(rotation.x, rotation.y, rotation.z, rotation.w)
-        frame = message.header.frame_id
-        if frame and not frame.endswith(FINGER_DISK):  # a second finger's may have a prefix
-            theta = math.nan
-        if not plausible(theta):
+        frame, turn = message.header.frame_id, message.pose.orientation
+        theta = edge_angle(frame, turn.x, turn.y, turn.z, turn.w)
+        if not self._steps.contact(stamp_of(message), theta):
             self._counted['implausible contacts'] += 1
-        self._control.feel(theta, self._time.of(message.header.stamp))
         self._counted['contacts'] += 1
 
     def _on_joint_states(self, message: JointState) -> None:
-        angles = dict(zip(message.name, message.position, strict=False))
-        try:
-            joints = [angles[name] for name in self._settings.joint_names]
-            x = self._finger.forward(*joints).x
-        except KeyError:
-            return  # joint_states of another mechanism
-        except ValueError:
+        if not self._steps.joint_states(stamp_of(message), message.name, message.position):
             self._counted['joint states without a number'] += 1
-            return
-        self._control.locate_finger(x, self._time.of(message.header.stamp))
 
     def _on_command(self, message: TwistStamped) -> None:
-        stamp = message.header.stamp
-        if (stamp.sec, stamp.nanosec, message.twist.linear.x) not in self._sent:
+        if (*stamp_of(message), message.twist.linear.x) not in self._sent:
             self._counted['commands of another node'] += 1
             self._control.notice_another_command()
 
@@ -229,30 +215,27 @@ class PushController(ManagedNode):
         else:
             stamp, steady = self._time.now_and_steady()
             elapsed, self._steady = steady - self._steady, steady
-        self._tick = self._control.tick(self._time.of(stamp), elapsed)
+        self._tick = self._steps.tick((stamp.sec, stamp.nanosec), elapsed)
         self._ticked_at = time.monotonic()
-        if self._tick.v_x is not None:
-            self._publish_command(stamp, self._tick.v_x)
-        self._state.publish(named_values(stamp, tick_values(self._tick, self._control.law)))
+        self._publish(stamp, self._tick)
         self._diagnostics.update()
 
-    def _publish_command(self, stamp: Time, v_x: float) -> None:
-        self._sent.append((stamp.sec, stamp.nanosec, v_x))
-        self._command.publish(velocity_command(v_x, stamp))
+    def _publish(self, stamp: Time, tick: Tick) -> None:
+        if tick.v_x is not None:
+            self._sent.append((stamp.sec, stamp.nanosec, tick.v_x))
+        for topic, fields in self._steps.outputs((stamp.sec, stamp.nanosec), tick):
+            publish(self._outputs[topic], fields)
 
     def _stop(self) -> None:
-        """Send a last zero command, say so, and wait until the finger has it."""
+        """Publish a last zero command and state, and wait until the finger has the command."""
         if self._timer is None:
             return
         self.destroy_timer(self._timer)
         self._timer = None
         self._counted = self._counts()
         self._tick = None
-        stamp = self.get_clock().now().to_msg()
-        self._publish_command(stamp, 0.0)
-        last = tick_values(self._control.deactivate(), self._control.law)
-        self._state.publish(named_values(stamp, last))
-        self._command.wait_for_all_acked(Duration(seconds=0.1))
+        self._publish(self.get_clock().now().to_msg(), self._control.deactivate())
+        self._outputs[COMMAND].wait_for_all_acked(Duration(seconds=0.1))
 
     def _counts(self) -> Counter[str]:
         counts = self._counted.copy()
@@ -280,8 +263,8 @@ class PushController(ManagedNode):
             return Health(ERROR, _words(tick), values)
         if time.monotonic() - self._ticked_at > STANDSTILL + self._control.period:
             return Health(WARN, f'{_words(tick)}, but time stands still', values)
-        others = self.count_publishers('finger/cmd_vel') - 1
-        values['other publishers of finger/cmd_vel'] = others
+        others = self.count_publishers(COMMAND) - 1
+        values[f'other publishers of {COMMAND}'] = others
         rates = self._diagnostics.rates
         lately = rates['ticks lost'] + rates['commands of another node']
         if tick.state == WAITING or tick.saturated or tick.limited or lately or others > 0:

@@ -1,16 +1,16 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Poses in the plane as messages carry them: in space, rotations as quaternions."""
+"""Poses in the plane as messages carry them: in space, with rotations as quaternions."""
 
 import math
 from collections.abc import Sequence
 
-UPRIGHT = 1e-3  # what rounding and careless publishers may leave of x and y
+UPRIGHT = 1e-3  # size of x and y that rounding and careless publishers may leave
 PLANE = (0, 1, 5)  # x, y and yaw among the rows of a covariance in space
 
 
 def quaternion_of_yaw(yaw: float) -> tuple[float, float]:
-    """Give the two components of a rotation about z that are not zero.
+    """Return the two components of a rotation about z that are not zero.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ def quaternion_of_yaw(yaw: float) -> tuple[float, float]:
 
 
 def yaw_of_quaternion(x: float, y: float, z: float, w: float) -> float:
-    """Give the angle of a rotation about z.
+    """Return the angle of a rotation about z.
 
     Parameters
     ----------
@@ -36,8 +36,8 @@ def yaw_of_quaternion(x: float, y: float, z: float, w: float) -> float:
     Returns
     -------
     float
-        Angle [rad] in [-pi, pi]; NaN if the components are no rotation about z: not finite, all 0,
-        or about an axis that leans by more than `UPRIGHT`.
+        Angle [rad] in [-pi, pi]; NaN if the components are not finite or all 0, or if the axis
+        leans from z by more than `UPRIGHT`.
     """
     length = math.hypot(z, w)
     if not (0.0 < length < math.inf and math.hypot(x, y) <= UPRIGHT * length):
@@ -46,7 +46,7 @@ def yaw_of_quaternion(x: float, y: float, z: float, w: float) -> float:
 
 
 def covariance_in_space(covariance: Sequence[Sequence[float]]) -> list[float]:
-    """Give the covariance of a pose in the plane as that of one in space.
+    """Return the covariance of a pose in the plane as that of a pose in space.
 
     Parameters
     ----------
@@ -56,8 +56,8 @@ def covariance_in_space(covariance: Sequence[Sequence[float]]) -> list[float]:
     Returns
     -------
     list of float
-        The 36 numbers of x, y, z and the rotations about them, row by row; what sticks out of the
-        plane is exactly 0.
+        The 36 numbers of x, y, z and the rotations about them, row by row; those that are not of
+        the plane are exactly 0.
     """
     numbers = [0.0] * 36
     for row, row_in_space in zip(covariance, PLANE, strict=True):

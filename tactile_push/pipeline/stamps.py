@@ -1,17 +1,24 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Times in seconds that a float has room for.
+"""Stamps of messages as times in seconds that a float can tell apart.
 
-A float resolves a time since 1970 to 240 ns only; two readings of one read differ by one. So times
-count from an epoch close by. It is the same for all who take it from about the same time, live or
-from a bag, so that equal stamps give equal numbers.
+A float resolves a time since 1970 to 240 ns only, but the stamps of two readings that were read
+together differ by 1 ns. So times count from an epoch close by. All who take the epoch from about
+the same time, live or from a bag, get the same one, so that equal stamps give equal numbers.
 """
 
-LENGTH = 2**20  # of the time that has one epoch [s]: twelve days, in which nanoseconds differ
+from collections.abc import Callable
+
+LENGTH = 2**20  # of an epoch [s]: twelve days, within which nanoseconds can be told apart
+
+Stamp = tuple[int, int]
+"""Time of a message [s, ns]."""
+Seconds = Callable[[int, int], float]
+"""Returns the time [s] of a stamp."""
 
 
 def epoch_of(sec: int) -> int:
-    """Give the epoch for times about a given one.
+    """Return the epoch for times about a given one.
 
     Parameters
     ----------
@@ -27,12 +34,12 @@ def epoch_of(sec: int) -> int:
 
 
 def seconds_since(epoch: int, sec: int, nanosec: int) -> float:
-    """Give the time of a stamp.
+    """Return the time of a stamp.
 
     Parameters
     ----------
     epoch : int
-        From when on the time counts [s].
+        Time from which the result counts [s].
     sec, nanosec : int
         The stamp [s, ns].
 
@@ -45,18 +52,18 @@ def seconds_since(epoch: int, sec: int, nanosec: int) -> float:
 
 
 def stamp_before(sec: int, nanosec: int, age: float) -> tuple[int, int]:
-    """Give the stamp of what was older at a given one.
+    """Return the stamp of something that was older at a given stamp.
 
     Parameters
     ----------
     sec, nanosec : int
         The stamp [s, ns].
     age : float
-        By how much [s].
+        How much older it was [s].
 
     Returns
     -------
     sec, nanosec : int
-        Its stamp [s, ns]; 0 if it is older than the clock.
+        The earlier stamp [s, ns]; 0 if it lies before the start of the clock.
     """
     return divmod(max(0, sec * 10**9 + nanosec - round(1e9 * age)), 10**9)

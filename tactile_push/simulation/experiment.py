@@ -1,21 +1,24 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""One run through the rig's finger and sensor: what the nodes would do, without the nodes."""
+"""One run of the rig through sensor, finger and the steps that the nodes run, without nodes."""
 
 import math
-from contextlib import suppress
 from itertools import count
 
 import numpy as np
 
 from tactile_push.control import PUSHING, WAITING, Limits, PushControl, PushLaw
+from tactile_push.interface import JOINT_STATES, TOPICS
+from tactile_push.pipeline import Control, Geometry, Stamp
 from tactile_push.simulation.faults import NO_FAULTS, Faults
 from tactile_push.simulation.rig import Rig, RigConfig
 from tactile_push.simulation.rollout import MODE, QUANTITIES, Rollout, check_time
 from tactile_push.simulation.sensor import Readout
-from tactile_push.tactile import ContactFinder, ReadingRejectedError
+from tactile_push.tactile import ContactFinder
 
-JOINT_STATE_TIMEOUT = 0.1  # as the node contact_geometry has it [s]
+JOINT_STATE_TIMEOUT = 0.1  # the default of the node contact_geometry [s]
+JOINTS = TOPICS[JOINT_STATES].field_names
+ANGLES = ('azimuth', 'elevation')
 
 
 def experiment(
@@ -31,32 +34,32 @@ def experiment(
 ) -> Rollout:
     """Run the control law on the rig, through its sensor and its finger.
 
-    The belt stands until the first contact; step 0 begins with it.
+    The belt stands until the first contact, with which step 0 begins.
 
     Parameters
     ----------
     config : RigConfig
         The rig and where it starts.
     law : PushLaw
-        The control law, which starts over and is changed.
+        The control law. It starts over, and the run changes it.
     steps : int
         Number of control periods.
     period : float, optional
         Control period [s].
     faults : Faults, optional
-        How far the rig is from a perfect one.
+        Faults of the rig; none by default.
     sensor_rate : float, optional
-        Readings a second, a whole number of them a control period [Hz]; one each by default.
+        Readings a second [Hz], a whole number in each control period; one by default.
     limits : Limits, optional
-        When the controller stops, which ends the run, and how fast it goes at the most.
+        When the controller stops, which ends the run, and how fast it may go.
     seed : int, optional
-        Seed of what chance decides: the same one gives the same run, to the bit.
+        Seed of the random numbers: the same seed gives the same run to the bit.
 
     Returns
     -------
     Rollout
-        The trajectory as it was, not as it was sensed; shorter than `steps` if the controller
-        stops, and empty if there never was a contact.
+        The true trajectory, not the sensed one; shorter than `steps` if the controller stops, and
+        empty if there never was a contact.
 
     Raises
     ------
@@ -76,14 +79,34 @@ def experiment(
         joint_state_timeout=JOINT_STATE_TIMEOUT,
         mount_angle=config.finger.mount_angle,
     )
-    control = PushControl(law, config.belt_speed, period, limits)
-    control.activate(0.0)
-    _feel(rig, readout, finder, control, 0.0)
+    push = PushControl(law, config.belt_speed, period, limits)
+    push.activate(0.0)
+
+    def seconds(k: int, i: int) -> float:
+        """Return the time of a stamp, which counts control periods and readings in a period."""
+        return (k + i / readings) * period
+
+    geometry = Geometry(finder, JOINTS, seconds)
+    control = Control(push, config.finger, JOINTS, seconds)
+
+    def feel(stamp: Stamp) -> None:
+        """Read joints and sensor, and give the controller the contacts that follow."""
+        joints = rig.joints
+        geometry.joint_states(stamp, JOINTS, joints)
+        control.joint_states(stamp, JOINTS, joints)
+        for sample in readout.read(rig.reading(), seconds(*stamp)):
+            if sample.reading is not None:
+                angles = sample.reading.azimuth, sample.reading.elevation
+                felt = geometry.tactile(stamp, ANGLES, angles)
+                if felt.contact is not None:
+                    control.contact(stamp, felt.contact.theta)
+
+    feel((0, 0))
     history = np.full((steps + 1, QUANTITIES), np.nan)
     done, end = 0, 'done'
     for k in count():
-        tick = control.tick(k * period)
-        waiting = tick.state == WAITING and tick.silence < control.limits.contact_timeout
+        tick = control.tick((k, 0))
+        waiting = tick.state == WAITING and tick.silence < push.limits.contact_timeout
         if not (waiting or tick.state == PUSHING):
             end = tick.stop_reason or tick.state
             break
@@ -95,21 +118,9 @@ def experiment(
                 break
         for i in range(readings):
             rig.step(tick.v_x or 0.0, period / readings, belt_running=not waiting)
-            _feel(rig, readout, finder, control, (k + (i + 1) / readings) * period)
+            feel((k, i + 1))
         if not waiting:
             history[done, MODE] = rig.mode
             done += 1
     theta, phi, d, x, y, mode = history[:done].T
     return Rollout(theta, phi, d, x, y, mode.astype(np.int64), end)
-
-
-def _feel(
-    rig: Rig, readout: Readout, finder: ContactFinder, control: PushControl, now: float
-) -> None:
-    """Read joints and sensor and give the controller the contacts that follow."""
-    finder.joints(now, rig.joints)
-    control.locate_finger(rig.finger_pose.x, now)
-    for sample in readout.read(rig.reading(), now):
-        if sample.reading is not None:
-            with suppress(ReadingRejectedError):
-                control.feel(finder.contact(sample.reading, now).theta, now)

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 rclpy = pytest.importorskip('rclpy')
 
+from geometry_msgs.msg import PoseStamped  # noqa: E402
 from rclpy.parameter import Parameter as RosParameter  # noqa: E402
 from sensor_msgs.msg import JointState  # noqa: E402
 
@@ -33,11 +34,13 @@ class Bench:
         monkeypatch.setattr(contact_geometry, 'time', SimpleNamespace(monotonic=lambda: self.now))
         self.node = ContactGeometry()
         self.sent = []
-        self.node._publisher = SimpleNamespace(publish=self._keep)
+        self.node._contact = SimpleNamespace(msg_type=PoseStamped, publish=self._keep)
         self.listeners = 0
         self.told = []
         self.node._state = SimpleNamespace(
-            publish=self.told.append, get_subscription_count=lambda: self.listeners
+            msg_type=JointState,
+            publish=self.told.append,
+            get_subscription_count=lambda: self.listeners,
         )
 
     def _keep(self, pose):

@@ -12,7 +12,7 @@ from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
 from tactile_push.estimation import ObjectEstimate, centre_on_ray
-from tactile_push.nodes.ros.messages import FINGER_DISK
+from tactile_push.interface import FINGER_DISK
 from tactile_push.pipeline.orientation import quaternion_of_yaw
 
 ABOVE = 0.022  # the belt, so that it is seen beside the true object [m]

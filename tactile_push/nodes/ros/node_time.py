@@ -45,7 +45,11 @@ class NodeTime:
         return now.to_msg(), steady
 
     def of(self, stamp: Time) -> float:
-        """Give the time of a message's stamp [s]."""
+        """Return the time of a message's stamp [s]."""
+        return self.seconds(stamp.sec, stamp.nanosec)
+
+    def seconds(self, sec: int, nanosec: int) -> float:
+        """Return the time [s] of a stamp [s, ns]."""
         if not self._epoch:  # simulated time, which may not run yet, starts at 0
             self._epoch = epoch_of(self._clock.now().nanoseconds // 10**9)
-        return seconds_since(self._epoch, stamp.sec, stamp.nanosec)
+        return seconds_since(self._epoch, sec, nanosec)

@@ -1,0 +1,143 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""From contacts to commands: what `push_controller` does with each message and at each tick."""
+
+import math
+from collections.abc import Iterator, Sequence
+
+from tactile_push.control import PushControl, Tick, plausible, tick_values
+from tactile_push.interface import COMMAND, CONTROLLER_STATE, FINGER_DISK
+from tactile_push.pipeline.messages import Output, command_fields, joint_state_fields
+from tactile_push.pipeline.named import by_name
+from tactile_push.pipeline.orientation import yaw_of_quaternion
+from tactile_push.pipeline.stamps import Seconds, Stamp
+from tactile_push.tactile import PlanarFinger
+
+
+class Control:
+    """Runs the control law on contacts.
+
+    Parameters
+    ----------
+    push : PushControl
+        Law, limits and stops.
+    finger : PlanarFinger
+        The finger's links, which say where the joints bring the disk.
+    joint_names : sequence of str
+        The finger's two moving joints.
+    seconds : callable
+        Returns the time [s] of a stamp.
+    """
+
+    def __init__(
+        self,
+        push: PushControl,
+        finger: PlanarFinger,
+        joint_names: Sequence[str],
+        seconds: Seconds,
+    ) -> None:
+        self.push = push
+        self._finger = finger
+        self._joint_names = joint_names
+        self._seconds = seconds
+
+    def contact(self, stamp: Stamp, theta: float) -> bool:
+        """Take a contact.
+
+        Parameters
+        ----------
+        stamp : tuple of int
+            When the sensor was read [s, ns].
+        theta : float
+            Angle of the pushed edge [rad], from `edge_angle` if it came as a message.
+
+        Returns
+        -------
+        bool
+            Whether a pushed edge can have that angle; the finger stops if not.
+        """
+        self.push.feel(theta, self._seconds(*stamp))
+        return plausible(theta)
+
+    def joint_states(self, stamp: Stamp, names: Sequence[str], positions: Sequence[float]) -> bool:
+        """Take a message of `joint_states`; one without both joints is ignored.
+
+        Parameters
+        ----------
+        stamp : tuple of int
+            When the joints were read [s, ns].
+        names : sequence of str
+            Joint names.
+        positions : sequence of float
+            Joint angles [rad].
+
+        Returns
+        -------
+        bool
+            Whether the joints have angles, as far as the message is about them.
+        """
+        angles = by_name(names, positions)
+        try:
+            x = self._finger.forward(*(angles[name] for name in self._joint_names)).x
+        except KeyError:
+            return True  # joint states of another mechanism
+        except ValueError:
+            return False
+        self.push.locate_finger(x, self._seconds(*stamp))
+        return True
+
+    def tick(self, stamp: Stamp, elapsed: float = math.nan) -> Tick:
+        """Decide on the command of a control period.
+
+        Parameters
+        ----------
+        stamp : tuple of int
+            When the period begins [s, ns].
+        elapsed : float, optional
+            Time since the last tick by a clock that cannot be set [s]; NaN if that is not known.
+
+        Returns
+        -------
+        Tick
+            What to command and why.
+        """
+        return self.push.tick(self._seconds(*stamp), elapsed)
+
+    def outputs(self, stamp: Stamp, tick: Tick) -> Iterator[Output]:
+        """Return the messages of a control period: the command, if there is one, and the state.
+
+        Parameters
+        ----------
+        stamp : tuple of int
+            When the period begins [s, ns].
+        tick : Tick
+            The last tick.
+
+        Yields
+        ------
+        tuple
+            Topic and fields.
+        """
+        if tick.v_x is not None:
+            yield COMMAND, command_fields(stamp, tick.v_x)
+        yield CONTROLLER_STATE, joint_state_fields(stamp, tick_values(tick, self.push.law))
+
+
+def edge_angle(frame: str, x: float, y: float, z: float, w: float) -> float:
+    """Return the angle of the edge that a message of `contact` tells of.
+
+    Parameters
+    ----------
+    frame : str
+        Frame of the message; an empty one is taken for `finger_disk`.
+    x, y, z, w : float
+        Quaternion of the pose.
+
+    Returns
+    -------
+    float
+        theta [rad]; NaN if the message is in another frame or the rotation is not about z.
+    """
+    if frame and not frame.endswith(FINGER_DISK):  # a second finger's may have a prefix
+        return math.nan
+    return yaw_of_quaternion(x, y, z, w)

@@ -1,0 +1,140 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""From readings and joint states to contacts: what `contact_geometry` does with each message."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from tactile_push.interface import CONTACT, GEOMETRY_STATE
+from tactile_push.pipeline.messages import Output, contact_fields, joint_state_fields
+from tactile_push.pipeline.named import by_name
+from tactile_push.pipeline.stamps import Seconds, Stamp
+from tactile_push.tactile import (
+    NO_CONTACT,
+    Contact,
+    ContactFinder,
+    Reading,
+    ReadingRejectedError,
+    reading_values,
+)
+
+# What a joint state was: taken, with numbers of no use, without a position of each joint.
+TAKEN, REFUSED = 'joint states', 'joint states refused'
+OTHER_JOINTS = 'joint states of other joints'
+UNREADABLE, NEGATIVE_STAMP = 'no azimuth and elevation', 'negative stamp'
+
+
+class Felt(NamedTuple):
+    """What came of one reading.
+
+    Parameters
+    ----------
+    stamp : tuple of int
+        When the sensor was read [s, ns].
+    reading : Reading
+        Angles that the sensor sent; `NO_CONTACT` if the message had none.
+    joint_angle : float
+        How far the joints had turned the finger tip then [rad]; NaN if that is not known.
+    contact : Contact or None
+        The contact; None if the reading was refused.
+    refusal : str
+        Why it was refused, one of `REFUSALS`; empty if it was not.
+    """
+
+    stamp: Stamp
+    reading: Reading
+    joint_angle: float
+    contact: Contact | None
+    refusal: str
+
+    def outputs(self) -> Iterator[Output]:
+        """Yield the messages: the contact, if there is one, and what became of the reading."""
+        theta = math.nan
+        if self.contact is not None:
+            theta = self.contact.theta
+            yield CONTACT, contact_fields(self.stamp, self.contact.x, self.contact.y, theta)
+        values = reading_values(self.reading, self.joint_angle, theta, self.refusal)
+        yield GEOMETRY_STATE, joint_state_fields(self.stamp, values)
+
+
+class Geometry:
+    """Finds the contact that each reading tells of.
+
+    Parameters
+    ----------
+    finder : ContactFinder
+        Finds contacts and refuses readings.
+    joint_names : sequence of str
+        Joints whose angles add up to the direction of the finger tip.
+    seconds : callable
+        Returns the time [s] of a stamp.
+    """
+
+    def __init__(self, finder: ContactFinder, joint_names: Sequence[str], seconds: Seconds) -> None:
+        self.finder = finder
+        self._joint_names = joint_names
+        self._seconds = seconds
+
+    def joint_states(self, stamp: Stamp, names: Sequence[str], positions: Sequence[float]) -> str:
+        """Take a message of `joint_states`.
+
+        Parameters
+        ----------
+        stamp : tuple of int
+            When the joints were read [s, ns].
+        names : sequence of str
+            Joint names.
+        positions : sequence of float
+            Joint angles [rad].
+
+        Returns
+        -------
+        str
+            What the message was: `TAKEN`, `REFUSED` or `OTHER_JOINTS`.
+        """
+        angles = by_name(names, positions)
+        try:
+            joints = [angles[name] for name in self._joint_names]
+        except KeyError:
+            return OTHER_JOINTS
+        return TAKEN if self.finder.joints(self._seconds(*stamp), joints) else REFUSED
+
+    def tactile(
+        self,
+        stamp: Stamp,
+        names: Sequence[str],
+        positions: Sequence[float],
+        joint_angle: float | None = None,
+    ) -> Felt:
+        """Take a message of `tactile`.
+
+        Parameters
+        ----------
+        stamp : tuple of int
+            When the sensor was read [s, ns].
+        names : sequence of str
+            Names, `azimuth` and `elevation` among them.
+        positions : sequence of float
+            Angles [rad]; NaN without a contact.
+        joint_angle : float, optional
+            How far the joints had turned the finger tip then [rad], if that is known otherwise than
+            from `joint_states`; NaN if it is known that nobody knew.
+
+        Returns
+        -------
+        Felt
+            What came of the reading.
+        """
+        values = by_name(names, positions)
+        try:
+            reading = Reading(values['azimuth'], values['elevation'])
+        except KeyError:
+            return Felt(stamp, NO_CONTACT, math.nan, None, UNREADABLE)
+        if stamp[0] < 0:  # the contact would have it, too
+            return Felt(stamp, NO_CONTACT, math.nan, None, NEGATIVE_STAMP)
+        try:
+            contact = self.finder.contact(reading, self._seconds(*stamp), joint_angle)
+        except ReadingRejectedError as reason:
+            return Felt(stamp, reading, self.finder.joint_angle, None, str(reason))
+        return Felt(stamp, reading, self.finder.joint_angle, contact, '')

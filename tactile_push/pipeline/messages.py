@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which number goes into which field of a message.
+
+The fields of a message are nested dicts by field name. `tactile_push.nodes.ros.messages` turns them
+into a ROS message and `tactile_push.replay.new_bag` into CDR. A field that is not there has its
+default value.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+from tactile_push.interface import FINGER_BASE, FINGER_DISK
+from tactile_push.mechanics.compiled import Array
+from tactile_push.pipeline.orientation import covariance_in_space, quaternion_of_yaw
+from tactile_push.pipeline.stamps import Stamp
+
+Fields = dict[str, Any]
+"""Fields of a message by name; those of a message within it again as `Fields`."""
+Output = tuple[str, Fields]
+"""Topic without the namespace, and the fields of the message."""
+
+
+def joint_state_fields(stamp: Stamp, values: Mapping[str, float]) -> Fields:
+    """Return the fields of a sensor_msgs/JointState with names and positions only.
+
+    Parameters
+    ----------
+    stamp : tuple of int
+        Time [s, ns].
+    values : mapping of str to float
+        Positions by name.
+
+    Returns
+    -------
+    dict
+        Fields by name.
+    """
+    header = _header(stamp, '')
+    return {'header': header, 'name': list(values), 'position': list(values.values())}
+
+
+def contact_fields(stamp: Stamp, x: float, y: float, theta: float) -> Fields:
+    """Return the fields of a geometry_msgs/PoseStamped that tells a contact.
+
+    Parameters
+    ----------
+    stamp : tuple of int
+        When the sensor was read [s, ns].
+    x, y : float
+        Contact point in `finger_disk` [m].
+    theta : float
+        Angle of the pushed edge [rad].
+
+    Returns
+    -------
+    dict
+        Fields by name.
+    """
+    return {'header': _header(stamp, FINGER_DISK), 'pose': _pose(x, y, theta)}
+
+
+def command_fields(stamp: Stamp, v_x: float) -> Fields:
+    """Return the fields of a geometry_msgs/TwistStamped that commands the finger.
+
+    Parameters
+    ----------
+    stamp : tuple of int
+        When the command was decided on [s, ns].
+    v_x : float
+        Velocity across the belt [m/s].
+
+    Returns
+    -------
+    dict
+        Fields by name.
+    """
+    return {'header': _header(stamp, FINGER_BASE), 'twist': {'linear': {'x': v_x}}}
+
+
+def object_pose_fields(stamp: Stamp, pose: Array, covariance: Array) -> Fields:
+    """Return the fields of a geometry_msgs/PoseWithCovarianceStamped that tells the object's pose.
+
+    Parameters
+    ----------
+    stamp : tuple of int
+        When the object was there [s, ns].
+    pose : ndarray, shape (3,)
+        x, y of the centre of mass in `finger_disk` [m] and angle of the object [rad].
+    covariance : ndarray, shape (3, 3)
+        Covariance of `pose`.
+
+    Returns
+    -------
+    dict
+        Fields by name.
+    """
+    uncertain = {
+        'pose': _pose(*pose.tolist()),
+        'covariance': covariance_in_space(covariance.tolist()),
+    }
+    return {'header': _header(stamp, FINGER_DISK), 'pose': uncertain}
+
+
+def _header(stamp: Stamp, frame: str) -> Fields:
+    return {'stamp': {'sec': stamp[0], 'nanosec': stamp[1]}, 'frame_id': frame}
+
+
+def _pose(x: float, y: float, yaw: float) -> Fields:
+    z, w = quaternion_of_yaw(yaw)
+    return {'position': {'x': x, 'y': y}, 'orientation': {'z': z, 'w': w}}

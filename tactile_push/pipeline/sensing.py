@@ -1,0 +1,124 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""From control periods to what is known of the object: what `active_sensing` does."""
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from tactile_push.control import Tick, tick_of
+from tactile_push.estimation import ActiveSensing, ObjectEstimate, sensing_values, tells_pose
+from tactile_push.interface import OBJECT_POSE, SENSING_STATE
+from tactile_push.pipeline.messages import Output, joint_state_fields, object_pose_fields
+from tactile_push.pipeline.named import by_name
+from tactile_push.pipeline.stamps import Seconds, Stamp, stamp_before
+
+
+class Sensed(NamedTuple):
+    """What is known of the object after one control period.
+
+    Parameters
+    ----------
+    stamp : tuple of int
+        When the period began [s, ns].
+    values : dict of str to float
+        Numbers of `active_sensing/state`.
+    estimate : ObjectEstimate
+        The estimate.
+    took : bool
+        Whether there was a reading.
+    forgot : str
+        Why everything was forgotten; empty if it was not.
+    has_pose : bool
+        Whether there is a new pose of the object to tell.
+    """
+
+    stamp: Stamp
+    values: dict[str, float]
+    estimate: ObjectEstimate
+    took: bool
+    forgot: str
+    has_pose: bool
+
+    @property
+    def known(self) -> bool:
+        """Whether anything is known of the object."""
+        return self.values['readings'] > 0.0 and not self.estimate.contradiction
+
+    @property
+    def read(self) -> Stamp:
+        """When the reading was taken that the pose belongs to [s, ns]."""
+        return stamp_before(*self.stamp, self.values['age'])
+
+    def outputs(self) -> Iterator[Output]:
+        """Yield the messages: the state and, if there is a new one, the pose."""
+        yield SENSING_STATE, joint_state_fields(self.stamp, self.values)
+        if self.has_pose:
+            pose, covariance = self.estimate.pose, self.estimate.covariance
+            yield OBJECT_POSE, object_pose_fields(self.read, pose, covariance)
+
+
+class Sensing:
+    """Senses the object from control periods.
+
+    Parameters
+    ----------
+    sensing : ActiveSensing
+        Finger motion and estimator.
+    seconds : callable
+        Returns the time [s] of a stamp.
+    """
+
+    def __init__(self, sensing: ActiveSensing, seconds: Seconds) -> None:
+        self.sensing = sensing
+        self._seconds = seconds
+
+    def state(self, stamp: Stamp, names: Sequence[str], positions: Sequence[float]) -> Sensed:
+        """Take a message of `push_controller/state`.
+
+        Parameters
+        ----------
+        stamp : tuple of int
+            When the control period began [s, ns].
+        names : sequence of str
+            Names.
+        positions : sequence of float
+            Values in the order of the names.
+
+        Returns
+        -------
+        Sensed
+            What is known then.
+
+        Raises
+        ------
+        ValueError
+            If a number is missing or impossible.
+        """
+        return self.tick(stamp, tick_of(by_name(names, positions)))
+
+    def tick(self, stamp: Stamp, tick: Tick) -> Sensed:
+        """Take a control period.
+
+        Parameters
+        ----------
+        stamp : tuple of int
+            When it began [s, ns].
+        tick : Tick
+            What the controller used and gave.
+
+        Returns
+        -------
+        Sensed
+            What is known then.
+        """
+        sensing = self.sensing
+        now = self._seconds(*stamp)
+        estimate = sensing.tick(now, tick.theta, tick.silence, tick.known_velocity)
+        return Sensed(
+            stamp,
+            sensing_values(estimate, sensing),
+            estimate,
+            sensing.took,
+            sensing.forgot,
+            tells_pose(estimate, sensing),
+        )
