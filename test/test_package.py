@@ -97,9 +97,10 @@ def test_core_knows_mechanics_and_itself_at_most(part):
         assert parts_imported(path) <= {'mechanics', part}, name
 
 
-def test_simulation_knows_mechanics_and_the_core_at_most():
+def test_simulation_knows_mechanics_the_core_and_the_pipeline_at_most():
+    known = {'mechanics', 'devices', 'simulation', 'pipeline', 'interface', *CORE}
     for name, path in modules_of('simulation').items():
-        assert parts_imported(path) <= {'mechanics', 'devices', 'simulation', *CORE}, name
+        assert parts_imported(path) <= known, name
 
 
 def test_bags_know_nothing_else_of_the_package():
