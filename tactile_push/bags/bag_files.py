@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What `metadata.yaml` says about a bag, and where its files are without it."""
+"""Which files a bag has, and what its `metadata.yaml` says."""
 
 import re
 from collections.abc import Callable
@@ -24,21 +24,7 @@ _FILE_NAME = re.compile(r'(.*?)(\d*)\.mcap(\.zstd)?')
 
 @dataclass(frozen=True)
 class BagMetadata:
-    """The part of rosbag2's metadata that is of use beside the MCAP files.
-
-    Parameters
-    ----------
-    files : tuple of str
-        Names of the files, in their order.
-    message_count : int
-        Messages that were recorded; 0 if that is not known.
-    end : int
-        Last log time [ns].
-    message_compression : str
-        What each message is compressed with; empty if none is.
-    custom_data : dict of str to str
-        Notes on the bag.
-    """
+    """The part of rosbag2's metadata that the MCAP files do not have themselves."""
 
     files: tuple[str, ...] = ()
     message_count: int = 0
@@ -48,23 +34,7 @@ class BagMetadata:
 
 
 def load_yaml(text: str) -> Any:
-    """Return what a YAML text says.
-
-    Parameters
-    ----------
-    text : str
-        Anything.
-
-    Returns
-    -------
-    object
-        Lists, dicts, numbers, words.
-
-    Raises
-    ------
-    ValueError
-        If it is no YAML; what PyYAML raises itself has many kinds and lines.
-    """
+    """Read YAML; ValueError, with one line, if it is none."""
     try:
         return yaml.load(text, Loader=_LOADER)
     except Exception as error:
@@ -72,23 +42,7 @@ def load_yaml(text: str) -> Any:
 
 
 def parse_metadata(information: Any) -> BagMetadata:
-    """Return what rosbag2 tells about a bag.
-
-    Parameters
-    ----------
-    information : object
-        Content of ``rosbag2_bagfile_information``.
-
-    Returns
-    -------
-    BagMetadata
-        What is of use here.
-
-    Raises
-    ------
-    ValueError
-        If it is something else.
-    """
+    """Return what ``rosbag2_bagfile_information`` says; ValueError if it is something else."""
     try:
         is_compressed = str(information.get('compression_mode', '')).lower() == 'message'
         return BagMetadata(
@@ -104,26 +58,10 @@ def parse_metadata(information: Any) -> BagMetadata:
 
 
 def read_metadata(folder: Path) -> BagMetadata:
-    """Return what the ``metadata.yaml`` of a bag tells.
+    """Read the ``metadata.yaml`` in the folder of a bag.
 
-    Parameters
-    ----------
-    folder : Path
-        Folder of the bag.
-
-    Returns
-    -------
-    BagMetadata
-        What is of use here.
-
-    Raises
-    ------
-    FileNotFoundError
-        If it has none.
-    OSError, ValueError
-        If it cannot be read or makes no sense.
-    BagError
-        If the bag is stored in another form than MCAP.
+    Raises FileNotFoundError if there is none, OSError or ValueError if it cannot be read, and
+    BagError if the bag is not stored as MCAP.
     """
     with open(folder / 'metadata.yaml', encoding='utf-8') as stream:
         text = stream.read(_LARGEST + 1)
@@ -141,22 +79,7 @@ def read_metadata(folder: Path) -> BagMetadata:
 
 
 def find_files(path: Path, metadata: BagMetadata, warn: Callable[[str], None]) -> list[Path]:
-    """Return the files of a bag in their order.
-
-    Parameters
-    ----------
-    path : Path
-        The bag's folder, or its file.
-    metadata : BagMetadata
-        What its ``metadata.yaml`` tells.
-    warn : callable
-        Gets a line for each file that is missing.
-
-    Raises
-    ------
-    BagError
-        If there is none.
-    """
+    """Return the files of a bag in their order; BagError if there is none."""
     if not path.is_dir():
         if path.suffix == '.db3':
             raise BagError(_foreign(path, 'sqlite3'))
@@ -179,6 +102,7 @@ def find_files(path: Path, metadata: BagMetadata, warn: Callable[[str], None]) -
 
 
 def _by_number(file: Path) -> tuple[str, int, str]:
+    """Sort a bag's files by name, bag_2 before bag_10."""
     match = _FILE_NAME.fullmatch(file.name)
     assert match is not None
     return match[1], int(match[2] or -1), file.name

@@ -16,15 +16,10 @@ _MOST_WAITING = 64
 
 
 class Disk:
-    """The thread that writes files, and what went wrong in it.
+    """A thread that writes files, and the error that it ran into.
 
-    All files have one thread, and are written in the order in which they were filled. After an
-    error nothing more is written to any of them.
-
-    Attributes
-    ----------
-    descriptors : set of int
-        Of the files that are open.
+    It writes all files in the order in which they were filled, and nothing more after an error.
+    `descriptors` has the open files.
     """
 
     def __init__(self) -> None:
@@ -38,7 +33,7 @@ class Disk:
 
     @property
     def failed(self) -> bool:
-        """Whether an error ended the writing and somebody has been told."""
+        """Whether an error has ended the writing and `check` has raised it."""
         return self._told
 
     def check(self) -> None:
@@ -48,18 +43,12 @@ class Disk:
             raise self._error
 
     def do(self, work: Callable[[], None]) -> None:
-        """Let the thread do something, after everything that it was given before.
-
-        Parameters
-        ----------
-        work : callable
-            What to do; it is not done after an error.
-        """
+        """Let the thread call `work` after everything before it, unless there is an error."""
         self.check()
         self._work.put(work)
 
     def close(self) -> None:
-        """Wait until everything is done; an error is told by `check`."""
+        """Wait until everything is done; `check` tells whether there was an error."""
         self._work.put(None)
         self._thread.join()
         for descriptor in self.descriptors:  # after an error
@@ -76,17 +65,10 @@ class Disk:
 
 
 class DiskFile:
-    """A new file that is filled piece by piece, with the methods that MCAP's writer wants.
+    """A new file that is filled piece by piece, with the methods that MCAP's writer calls.
 
-    A piece that does not go onto the disk whole is taken back: the file then ends with the piece
+    If a piece does not reach the disk whole, it is removed: the file then ends with the piece
     before it.
-
-    Parameters
-    ----------
-    disk : Disk
-        Who writes it.
-    path : path
-        File, not there yet.
     """
 
     def __init__(self, disk: Disk, path: Path) -> None:
@@ -100,35 +82,24 @@ class DiskFile:
         disk.do(partial(sync_directory, path.parent))
 
     def write(self, piece: bytes) -> int:
-        """Append a piece.
-
-        Parameters
-        ----------
-        piece : bytes
-            What stays whole or goes.
-
-        Returns
-        -------
-        int
-            Its length.
-        """
+        """Append a piece; return its length."""
         if piece:
             self._disk.do(partial(self._write, piece))
             self._length += len(piece)
         return len(piece)
 
     def tell(self) -> int:
-        """Give the length of the file, with all that waits to be written [B]."""
+        """Return the length of the file with all that waits to be written [B]."""
         return self._length
 
     def flush(self) -> None:
-        """See that what was appended will survive a power cut."""
+        """Have all that was appended put onto the disk, to survive a power cut."""
         if self._length > self._flushed:
             self._flushed = self._length
             self._disk.do(self._sync)
 
     def close(self) -> None:
-        """Say that nothing more comes."""
+        """Close the file after everything that waits has been written."""
         self._disk.do(self._close)
 
     def _write(self, piece: bytes) -> None:
@@ -164,36 +135,30 @@ class DiskFile:
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Write a file that is there whole or not at all, whatever happens in between.
+    """Write a file whole or not at all, whatever happens meanwhile, and put it onto the disk.
 
-    Parameters
-    ----------
-    path : path
-        The file.
-    text : str
-        Its content.
+    What is no file, such as a terminal or a pipe, is written to directly. An OSError has the name
+    of the file.
     """
-    unfinished = path.with_name(f'{path.name}.unfinished')
+    is_no_file = path.exists() and not path.is_file()
+    part = path if is_no_file else path.with_name(f'.{path.name}.{os.getpid()}')
     try:
-        with unfinished.open('w', encoding='utf-8') as stream:
+        with part.open('w', encoding='utf-8', errors='replace') as stream:
             stream.write(text)
             stream.flush()
-            os.fsync(stream.fileno())
-        unfinished.replace(path)
-    except OSError:
-        unfinished.unlink(missing_ok=True)
-        raise
+            if not is_no_file:
+                os.fsync(stream.fileno())
+                part.replace(path)
+    except OSError as error:
+        if not is_no_file:
+            with contextlib.suppress(OSError):
+                part.unlink(missing_ok=True)
+        raise OSError(error.errno, error.strerror, str(path)) from None
     sync_directory(path.parent)
 
 
 def sync_directory(path: Path) -> None:
-    """See that the entries of a directory survive a power cut, if its file system can do that.
-
-    Parameters
-    ----------
-    path : path
-        The directory.
-    """
+    """Put the entries of a directory onto the disk, if its file system can do that."""
     with contextlib.suppress(OSError):
         descriptor = os.open(path, os.O_RDONLY | os.O_DIRECTORY)
         try:

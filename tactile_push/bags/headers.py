@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""When the header of a message says that it was made."""
+"""Stamps in the headers of messages."""
 
 import re
 import struct
@@ -16,14 +16,9 @@ _STAMP_AT = 4  # behind the encapsulation header
 
 
 class HeaderStamps:
-    """The stamps of a bag's messages, read without decoding them.
+    """The stamps of a bag's messages, read without decoding the messages.
 
-    A type has a header if that is its first field, as is the custom.
-
-    Parameters
-    ----------
-    bag : BagReader
-        The bag.
+    A topic has a header if that is the first field of its type, as is the custom.
     """
 
     def __init__(self, bag: BagReader) -> None:
@@ -39,23 +34,7 @@ class HeaderStamps:
         return topic in self._topics
 
     def of(self, message: Message) -> int:
-        """Return the stamp of a message of a topic with headers.
-
-        Parameters
-        ----------
-        message : Message
-            A message of the bag.
-
-        Returns
-        -------
-        int
-            The stamp [ns].
-
-        Raises
-        ------
-        BagError
-            If the message ends before its stamp.
-        """
+        """Return the stamp of a message [ns]; BagError if the message ends before it."""
         try:
             sec, nanosec = _STAMP[message.data[1] & 1].unpack_from(message.data, _STAMP_AT)
         except (IndexError, struct.error):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Messages of many parts of a bag in order of time, few of them in memory at once."""
+"""Merge the messages of many parts of a bag by time, with few of them in memory at once."""
 
 import heapq
 from bisect import bisect_left
@@ -22,32 +22,16 @@ _BY_LOG_TIME = attrgetter('log_time')
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """Messages that are read at once.
-
-    Parameters
-    ----------
-    start : int
-        No message is older [ns].
-    load : callable
-        Reads them, sorted by log time; the same ones each time.
-    """
+    """Messages that `load` reads at once, sorted by log time; none is older than `start` [ns]."""
 
     start: int
     load: Callable[[], list[Message]]
 
 
 def in_order(parts: Sequence[Part]) -> Iterator[Message]:
-    """Return the messages of all parts by log time, and by part where that is equal.
+    """Yield the messages of all parts by log time, and by part where that is equal.
 
-    Parameters
-    ----------
-    parts : sequence of Part
-        The parts. Each is read when time has come to its start.
-
-    Yields
-    ------
-    Message
-        The next one.
+    A part is loaded when time has come to its start.
     """
     waiting = deque(sorted(enumerate(parts), key=lambda part: part[1].start))
     heap: list[tuple[int, int, _OpenPart]] = []
@@ -75,7 +59,7 @@ def in_order(parts: Sequence[Part]) -> Iterator[Message]:
 
 
 def _forget_some(heap: list[tuple[int, int, '_OpenPart']]) -> None:
-    """Forget the messages that are needed last, if there are too many."""
+    """Forget the messages that are needed last, if there are too many in memory."""
     excess = sum(opened.size for _, _, opened in heap) - _BUDGET
     if excess > 0:
         for _, _, opened in sorted(heap[1:], reverse=True):
@@ -85,7 +69,7 @@ def _forget_some(heap: list[tuple[int, int, '_OpenPart']]) -> None:
 
 
 class _OpenPart:
-    """A part of which messages are wanted now."""
+    """A part whose messages are needed now."""
 
     def __init__(self, part: Part) -> None:
         self._load = part.load
@@ -116,7 +100,7 @@ class _OpenPart:
         self.size = sum(len(message.data) + _OVERHEAD for message in self._messages)
 
     def forget(self) -> int:
-        """Give back the memory, until they are read again; return how much it was [bytes]."""
+        """Free the memory until they are read again; return how much it was [bytes]."""
         size = self.size
         self._messages = []
         self.size = 0

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""A bag's metadata as rosbag2 of ROS 2 Jazzy writes them.
+"""Rosbag2's metadata of a bag, as ROS 2 Jazzy writes them.
 
-The names, their order and the version are those of ``YAML::convert`` in
-rosbag2_storage/include/rosbag2_storage/yaml.hpp; the figures are those that
+Names, order and version are those of ``YAML::convert`` in
+rosbag2_storage/include/rosbag2_storage/yaml.hpp; the values are those that
 rosbag2_cpp/src/rosbag2_cpp/writers/sequential_writer.cpp fills in.
 """
 
@@ -22,56 +22,31 @@ class _PlainDumper(yaml.SafeDumper):
     """Write equal parts out in full, where YAML would refer from one to the other."""
 
     def ignore_aliases(self, data: Any) -> bool:
-        """Tell that nothing is to be replaced by a reference."""
+        """Return that nothing is replaced by a reference."""
         return True
 
 
 def to_yaml(value: object) -> str:
-    """Write a value as YAML in block style without references.
-
-    Parameters
-    ----------
-    value : object
-        Plain values in lists and dictionaries.
-
-    Returns
-    -------
-    str
-        The text.
-    """
+    """Write lists and dictionaries of plain values as YAML, in block style without references."""
     return yaml.dump(value, Dumper=_PlainDumper, sort_keys=False, default_flow_style=False)
 
 
 @dataclass
 class Messages:
-    """How many messages there are, and when they were received.
-
-    Parameters
-    ----------
-    count : int, optional
-        Their number.
-    start, end : int, optional
-        Time of the first and of the last [ns].
-    """
+    """How many messages there are, and the first and last time at which one was received [ns]."""
 
     count: int = 0
     start: int = _NEVER
     end: int = 0
 
     def add(self, time_ns: int) -> None:
-        """Count a message.
-
-        Parameters
-        ----------
-        time_ns : int
-            When it was received [ns].
-        """
+        """Count a message that was received at a time [ns]."""
         self.count += 1
         self.start = min(self.start, time_ns)
         self.end = max(self.end, time_ns)
 
     def times(self) -> dict[str, dict[str, int]]:
-        """Give the entries on time."""
+        """Return the entries for the times."""
         return {
             'duration': {'nanoseconds': max(self.end - self.start, 0)},
             'starting_time': {'nanoseconds_since_epoch': self.start},
@@ -80,19 +55,7 @@ class Messages:
 
 @dataclass
 class TopicMetadata:
-    """A topic of a bag.
-
-    Parameters
-    ----------
-    name, type_name : str
-        Its full name and message type.
-    qos : sequence of mappings
-        The quality of service of each publisher.
-    type_hash : str
-        Hash of the message type; empty if it is not known.
-    count : int, optional
-        Number of its messages.
-    """
+    """A topic: its publishers' qualities of service, its type's hash ('' if unknown)."""
 
     name: str
     type_name: str
@@ -101,7 +64,7 @@ class TopicMetadata:
     count: int = 0
 
     def entry(self) -> dict[str, object]:
-        """Give the entry of the topic."""
+        """Return the entry of the topic."""
         return {
             'topic_metadata': {
                 'name': self.name,
@@ -116,21 +79,13 @@ class TopicMetadata:
 
 @dataclass
 class FileMetadata:
-    """A file of a bag.
-
-    Parameters
-    ----------
-    name : str
-        Its name.
-    messages : Messages, optional
-        What is in it.
-    """
+    """A file and the messages in it."""
 
     name: str
     messages: Messages = field(default_factory=Messages)
 
     def entry(self) -> dict[str, object]:
-        """Give the entry of the file."""
+        """Return the entry of the file."""
         times = self.messages.times()
         return {
             'path': self.name,
@@ -146,24 +101,7 @@ def bag_metadata(
     files: Sequence[FileMetadata],
     notes: Mapping[str, str],
 ) -> dict[str, object]:
-    """Give the metadata of a bag.
-
-    Parameters
-    ----------
-    messages : Messages
-        All messages of the bag.
-    topics : iterable of TopicMetadata
-        Its topics.
-    files : sequence of FileMetadata
-        Its files.
-    notes : mapping of str to str
-        Its custom data.
-
-    Returns
-    -------
-    dict
-        What belongs under ``rosbag2_bagfile_information`` in ``metadata.yaml``.
-    """
+    """Return what stands under ``rosbag2_bagfile_information`` in ``metadata.yaml``."""
     return {
         'version': 9,
         'storage_identifier': 'mcap',

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Time series of a bag's joint states, by name."""
+"""Read a topic of joint states as columns."""
 
 import os
 

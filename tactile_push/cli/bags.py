@@ -13,7 +13,7 @@ from typing import Any
 from rich.console import Console
 from rich.progress import Progress
 
-from tactile_push.cli.files import write_whole
+from tactile_push.bags.disk import write_whole
 
 _WIDTH_OF_FILES = 160  # columns, where the output is no terminal
 

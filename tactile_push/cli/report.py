@@ -52,8 +52,8 @@ def _page(text: str) -> Path:
 
 def _report(options: argparse.Namespace) -> int:
     from tactile_push.bags import BagError, BagReader
+    from tactile_push.bags.disk import write_whole
     from tactile_push.cli.bags import reading, warner
-    from tactile_push.cli.files import write_whole
     from tactile_push.report import messages_shown, read_run, report_html
 
     warnings: list[str] = []
