@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Merge the messages of many parts of a bag by time, with few of them in memory at once."""
+"""Merge the messages of many batches of a bag by time, with few of them in memory at once."""
 
 import heapq
 from bisect import bisect_left
@@ -11,7 +11,7 @@ from operator import attrgetter
 
 from tactile_push.bags.mcap_file import Message
 
-# What overlapping parts may take together before some are forgotten and read again [bytes].
+# What overlapping batches may take together before some are forgotten and read again [bytes].
 _BUDGET = 1 << 25
 
 # What a message takes beside its data, roughly [bytes].
@@ -21,24 +21,24 @@ _BY_LOG_TIME = attrgetter('log_time')
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class Batch:
     """Messages that `load` reads at once, sorted by log time; none is older than `start` [ns]."""
 
     start: int
     load: Callable[[], list[Message]]
 
 
-def in_order(parts: Sequence[Part]) -> Iterator[Message]:
-    """Yield the messages of all parts by log time, and by part where that is equal.
+def in_order(batches: Sequence[Batch]) -> Iterator[Message]:
+    """Yield the messages of all batches by log time, and by batch where that is equal.
 
-    A part is loaded when time has come to its start.
+    A batch is loaded when time has come to its start.
     """
-    waiting = deque(sorted(enumerate(parts), key=lambda part: part[1].start))
-    heap: list[tuple[int, int, _OpenPart]] = []
+    waiting = deque(sorted(enumerate(batches), key=lambda batch: batch[1].start))
+    heap: list[tuple[int, int, _OpenBatch]] = []
     while waiting or heap:
         if waiting and (not heap or waiting[0][1].start <= heap[0][0]):
-            number, part = waiting.popleft()
-            opened = _OpenPart(part)
+            number, batch = waiting.popleft()
+            opened = _OpenBatch(batch)
             if opened.size:
                 heapq.heappush(heap, (opened.time, number, opened))
                 _forget_some(heap)
@@ -47,7 +47,7 @@ def in_order(parts: Sequence[Part]) -> Iterator[Message]:
         if not opened.size:
             opened.read()
             _forget_some(heap)
-        # Up to here no other part has anything to say.
+        # Up to here no other batch has anything to say.
         bound = waiting[0][1].start if waiting else 2**64
         for time, other, _ in heap[1:3]:
             bound = min(bound, time + (number < other))
@@ -58,7 +58,7 @@ def in_order(parts: Sequence[Part]) -> Iterator[Message]:
             heapq.heapreplace(heap, (opened.time, number, opened))
 
 
-def _forget_some(heap: list[tuple[int, int, '_OpenPart']]) -> None:
+def _forget_some(heap: list[tuple[int, int, '_OpenBatch']]) -> None:
     """Forget the messages that are needed last, if there are too many in memory."""
     excess = sum(opened.size for _, _, opened in heap) - _BUDGET
     if excess > 0:
@@ -68,11 +68,11 @@ def _forget_some(heap: list[tuple[int, int, '_OpenPart']]) -> None:
                 break
 
 
-class _OpenPart:
-    """A part whose messages are needed now."""
+class _OpenBatch:
+    """A batch whose messages are needed now."""
 
-    def __init__(self, part: Part) -> None:
-        self._load = part.load
+    def __init__(self, batch: Batch) -> None:
+        self._load = batch.load
         self._position = 0
         self.read()
         self.time = self._messages[0].log_time if self._messages else 0

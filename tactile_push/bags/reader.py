@@ -27,7 +27,7 @@ from tactile_push.bags.bag_files import (
 from tactile_push.bags.mcap_contents import Piece
 from tactile_push.bags.mcap_file import McapFile, Message
 from tactile_push.bags.mcap_records import DamageError
-from tactile_push.bags.merge import Part, in_order
+from tactile_push.bags.merge import Batch, in_order
 from tactile_push.bags.sources import BagError
 
 _LOGGER = logging.getLogger('tactile_push.bags')
@@ -44,7 +44,7 @@ class Topic:
     type_name : str
         Message type, such as ``'sensor_msgs/msg/JointState'``.
     definition : str
-        Text of the schema: the type's definition with those of all its parts.
+        Text of the schema: the type's definition with those of all its batches.
     qos : tuple of dict
         Quality of service that each publisher offered, in the words of rosbag2.
     type_hash : str
@@ -159,7 +159,7 @@ class BagReader:
         """
         start = 0 if start is None else start
         end = 2**64 if end is None else end
-        parts = []
+        batches = []
         unread: Counter[int] = Counter()
         for number, (file, names) in enumerate(zip(self._files, self._topic_names, strict=True)):
             if topics is not None:
@@ -170,9 +170,9 @@ class BagReader:
                 wanted = not piece.channels or not names.keys().isdisjoint(piece.channels)
                 if wanted and piece.end >= start and piece.start < end:
                     unread[number] += 1
-                    parts.append(Part(piece.start, partial(load, piece)))
+                    batches.append(Batch(piece.start, partial(load, piece)))
         try:
-            yield from in_order(parts)
+            yield from in_order(batches)
         finally:
             self._close()
 

@@ -15,48 +15,24 @@ LATCHED_DEPTH = 100
 
 @dataclass(frozen=True)
 class Offer:
-    """A quality of service, as far as it decides who is served and how.
+    """A quality of service, as far as it decides which subscribers are served and how."""
 
-    Parameters
-    ----------
-    reliable : bool
-        Whether lost messages are sent again.
-    latched : bool
-        Whether late subscribers get earlier messages (`transient_local`).
-    manual : bool
-        Whether only publishing shows that the publisher lives (`manual_by_topic`).
-    depth : int
-        Messages that are kept for slow subscribers or late ones.
-    deadline, lifespan, lease : int
-        Longest time between messages, that for which one is of use, and that within which the
-        publisher shows that it lives [ns]; `FOREVER` if there is no bound.
-    unmangled : bool
-        Whether the topic's name is the middleware's own.
-    """
-
-    reliable: bool
-    latched: bool
-    manual: bool
-    depth: int
-    deadline: int
-    lifespan: int
-    lease: int
-    unmangled: bool
+    reliable: bool  # lost messages are sent again
+    latched: bool  # late subscribers get earlier messages (`transient_local`)
+    manual: bool  # only publishing shows that the publisher lives (`manual_by_topic`)
+    depth: int  # messages kept for slow or late subscribers
+    deadline: int  # longest time between messages [ns]; FOREVER if unbounded, as for the next two
+    lifespan: int  # for which a message is of use [ns]
+    lease: int  # within which the publisher shows that it lives [ns]
+    unmangled: bool  # the topic's name is the middleware's own
 
 
 def combined_offer(offers: Sequence[Mapping[str, Any]]) -> Offer:
-    """Return an offer that suits whoever any of the given ones suits.
+    """Return an offer that serves every subscriber that any of the recorded publishers served.
 
-    Parameters
-    ----------
-    offers : sequence of mappings
-        What a bag says of the publishers of a topic, in rosbag2's words, or the numbers that it
-        wrote before Jazzy. Without any the offer is reliable.
-
-    Returns
-    -------
-    Offer
-        In each respect the strongest one; a lifespan is the longest.
+    `offers` is what a bag says of the publishers of a topic, in rosbag2's words or in the numbers
+    that it wrote before Jazzy. In each respect the strongest one counts; of lifespans the longest.
+    Without any, the offer is reliable.
     """
     latched = any(offer.get('durability') in ('transient_local', 1) for offer in offers)
     depth = LATCHED_DEPTH if latched else DEPTH

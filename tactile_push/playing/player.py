@@ -28,11 +28,12 @@ from rclpy.qos import (
 from rclpy.serialization import deserialize_message
 from rosgraph_msgs.msg import Clock as ClockMessage
 
-from tactile_push.bags.reader import BagError, Message, Topic
+from tactile_push.bags import BagError, Message, Topic
+from tactile_push.interface import CLOCK
 from tactile_push.playing.offers import Offer, combined_offer
 from tactile_push.playing.playback import Playback
 from tactile_push.playing.read_ahead import ReadAhead
-from tactile_push.playing.schedule import CLOCK, Event, Part, events
+from tactile_push.playing.schedule import Event, Part, events
 from tactile_push.recording.recorder import message_class
 
 # The graph is looked at so often; it has to stay the same for so long, since nodes that are there
@@ -49,32 +50,31 @@ TIME_ENDS = 2**31 * 10**9  # as far as a message can tell [ns]
 class Player:
     """Publishers of a bag's topics, and a thread that publishes each message when it is due.
 
-    Each topic is offered with a quality of service that suits whoever any of the recorded
-    publishers suited. The play begins when the graph has subscribers, all of them are matched and
+    Each topic is offered with a quality of service that serves whoever any of the recorded
+    publishers served. The play begins when the graph has subscribers, all of them are matched and
     nothing has changed for `QUIET`, or after `PATIENCE`.
 
-    A topic whose messages are not CDR, whose type is not installed, or is another version of what
-    was recorded, is left out with a warning. Of each topic the first message is decoded when it is
-    due, and a warning given if that fails; all are published as they are.
+    A topic is left out with a warning if its messages are not CDR, or if its type is not installed
+    or is another version of the recorded one. The player decodes the first message of each topic
+    when it is due and warns if that fails; it publishes all messages as they are.
 
     Parameters
     ----------
     node : rclpy.node.Node
-        Node that publishes, spun by the caller.
+        Node that publishes; the caller spins it.
     part : Part
         What is played.
     finished : callable
-        Called in the node's thread at the end of the play, and when something went wrong; not
-        after `stop`.
+        Called in the node's thread at the end of the play, or after an error, but not after `stop`.
     rate : float, optional
-        How fast the bag's time goes by.
+        Seconds of the bag per second.
     loop : bool, optional
         Whether to start over at the end, for ever.
     clock_rate : float, optional
-        How often `/clock` is published besides before each message, by the bag's time [Hz]; 0 is
-        not at all. While time stands still it is repeated.
+        How often `/clock` is published, by the bag's time, besides before each message [Hz]; 0 for
+        never. While time stands still it is repeated.
     paused : bool, optional
-        Whether it is paused to begin with.
+        Whether the play begins paused.
     names : mapping of str to str, optional
         New names of topics.
 
@@ -83,12 +83,12 @@ class Player:
     published : int
         Messages so far.
     error : Exception or None
-        What went wrong.
+        What ended the play early.
 
     Raises
     ------
     BagError
-        If none of it can be published.
+        If no topic can be published.
     """
 
     def __init__(
@@ -143,7 +143,7 @@ class Player:
 
     @property
     def position(self) -> float:
-        """Where it is, from the beginning of the bag [s]."""
+        """Time played, from the beginning of the bag [s]."""
         part, played = self._part, 0
         if self._playback is not None:
             played = self._playback.head.played(time.monotonic_ns())
@@ -153,30 +153,18 @@ class Player:
 
     @property
     def late(self) -> int:
-        """How often something was published late."""
+        """How many events were published late."""
         return 0 if self._playback is None else self._playback.late
 
     def pause(self, paused: bool) -> None:
-        """Pause or go on.
-
-        Parameters
-        ----------
-        paused : bool
-            Whether to pause.
-        """
+        """Pause or go on."""
         self._paused = paused
         if self._playback is not None:
             head = self._playback.head
             self._ask(lambda: (head.pause if paused else head.resume)(time.monotonic_ns()))
 
     def step(self) -> Message | None:
-        """Publish the next message of a paused play.
-
-        Returns
-        -------
-        Message or None
-            What was published; None if the play is not paused or nothing is left.
-        """
+        """Publish the next message of a paused play; return it, or None if there was none."""
         if self._playback is None or not self._paused:
             return None
         return self._ask(self._playback.step)
@@ -190,14 +178,14 @@ class Player:
             self._thread.join()
 
     def _ask(self, request: Callable[[], Any]) -> Any:
-        """Let the playing thread do something and give the outcome, if there is one in time."""
+        """Let the playing thread call `request`; return the outcome, None if none comes in time."""
         outcome: Future[Any] = Future()
         self._requests.put((request, outcome))
         with contextlib.suppress(TimeoutError):
             return outcome.result(ANSWER_TIMEOUT)
 
     def _look(self) -> None:
-        """Begin if everybody who wants to hear can be heard by."""
+        """Begin to play when all subscribers are matched."""
         publishers = [*self._publishers.values(), *([self._clock] if self._clock else [])]
         seen = {publisher.topic: self._count_subscribers(publisher) for publisher in publishers}
         now = time.monotonic()
@@ -267,7 +255,7 @@ class Player:
             self.published += 1
 
     def _try(self, message: Message, message_type: type) -> None:
-        """Warn of messages of which subscribers can make nothing."""
+        """Warn of a message that subscribers cannot decode."""
         self._untried.remove(message.topic)
         try:
             deserialize_message(message.data, message_type)
@@ -277,7 +265,7 @@ class Player:
             )
 
     def _tell(self, now: int) -> None:
-        """Publish /clock, also while time stands still: somebody may come to it."""
+        """Publish /clock, also while time stands still: a subscriber may come later."""
         self._told = now
         if self._clock is not None:
             self._tells.clock.sec, self._tells.clock.nanosec = divmod(now, 10**9)
@@ -321,18 +309,7 @@ def _make_publisher(node: Node, topic: Topic, name: str) -> Publisher:
 
 
 def profile_of(offer: Offer) -> QoSProfile:
-    """Return an offer as rclpy takes it.
-
-    Parameters
-    ----------
-    offer : Offer
-        The offer.
-
-    Returns
-    -------
-    QoSProfile
-        The same.
-    """
+    """Return an offer in rclpy's form."""
     return QoSProfile(
         depth=offer.depth,
         reliability=ReliabilityPolicy.RELIABLE if offer.reliable else ReliabilityPolicy.BEST_EFFORT,

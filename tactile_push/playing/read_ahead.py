@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Reads a bag some way ahead of its player, so that nothing waits for a file or for zstd."""
+"""Read a bag some way ahead of its player, which then never waits for a file or for zstd."""
 
 from collections import deque
 from collections.abc import Iterator
@@ -14,14 +14,9 @@ OVERHEAD = 500  # an event takes besides its message's data [B]
 
 
 class ReadAhead(Iterator[Event]):
-    """The same events, read in a thread of their own.
+    """The same events, read in another thread.
 
-    What is raised there is raised again where the event is missed.
-
-    Parameters
-    ----------
-    events : iterator of Event
-        The events.
+    An exception in that thread is raised where the next event would have come.
     """
 
     def __init__(self, events: Iterator[Event]) -> None:
@@ -49,7 +44,7 @@ class ReadAhead(Iterator[Event]):
         return self._taken.popleft()
 
     def close(self) -> None:
-        """Read no further; what was read is forgotten."""
+        """Stop reading, and forget what was read."""
         with self._changed:
             self._ended = True
             self._batches.clear()
@@ -75,7 +70,7 @@ class ReadAhead(Iterator[Event]):
             self._changed.notify_all()
 
     def _hand_over(self, batch: deque[Event], size: int) -> bool:
-        """Wait for room; tell whether there is any need to read on."""
+        """Wait for room; return whether anybody still wants events."""
         with self._changed:
             self._changed.wait_for(lambda: self._size < MOST or self._ended)
             if not self._ended and batch:

@@ -1,30 +1,19 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What happens in a play of a bag, and when by the bag's own time."""
+"""What happens when a bag is played, and when, by the bag's own time."""
 
 import difflib
 import heapq
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from tactile_push.bags.reader import BagError, BagReader, Message
-
-CLOCK = '/clock'
+from tactile_push.bags import BagError, BagReader, Message
+from tactile_push.interface import CLOCK
 
 
 @dataclass(frozen=True)
 class Part:
-    """What of a bag is played.
-
-    Parameters
-    ----------
-    bag : BagReader
-        The bag.
-    topics : tuple of str
-        Names of the topics, as in the bag.
-    begin, end : int
-        Times of the bag between which its messages are played, both included [ns].
-    """
+    """What is played of a bag: some topics, from `begin` up to and including `end` [ns]."""
 
     bag: BagReader
     topics: tuple[str, ...]
@@ -32,13 +21,7 @@ class Part:
     end: int
 
     def messages(self) -> Iterator[Message]:
-        """Read the messages.
-
-        Returns
-        -------
-        iterator of Message
-            In order of their log time.
-        """
+        """Read the messages in order of their log time."""
         return self.bag.messages(self.topics, self.begin, self.end + 1)
 
 
@@ -51,32 +34,11 @@ def part_of(
     with_clock: bool = False,
     loop: bool = False,
 ) -> Part:
-    """Choose what of a bag is played.
+    """Choose what of a bag is played: from `start`, for `duration` [s], which 0 leaves open.
 
-    Parameters
-    ----------
-    bag : BagReader
-        The bag.
-    topics : sequence of str, optional
-        Names of topics, with or without the leading slash; all if there are none.
-    start : float, optional
-        Time from the beginning of the bag at which to begin [s].
-    duration : float, optional
-        How long to go on from there [s]; 0 is to the end of the bag.
-    with_clock : bool, optional
-        Whether the player gives the time itself, so that the bag's `/clock` is left out.
-    loop : bool, optional
-        Whether it will be played again and again.
-
-    Returns
-    -------
-    Part
-        What is played; it has a message.
-
-    Raises
-    ------
-    BagError
-        If the bag has no such topic, no message there or, for a loop, no length.
+    Topics may lack the leading slash; all are played if none are named. `with_clock` leaves the
+    bag's `/clock` out, because the player publishes its own; `loop` says that the part repeats.
+    BagError if the bag has no such topic, no message there or, for a loop, no length.
     """
     if not any(bag.counts.values()):
         raise BagError(f'{bag.path}: the bag is empty')
@@ -98,24 +60,9 @@ def part_of(
 
 
 def topic_in_bag(bag: BagReader, name: str) -> str:
-    """Give the topic of a bag that a person means.
+    """Return the full name of a topic that a person named with or without the leading slash.
 
-    Parameters
-    ----------
-    bag : BagReader
-        The bag.
-    name : str
-        Its name, with or without the leading slash.
-
-    Returns
-    -------
-    str
-        Its full name.
-
-    Raises
-    ------
-    BagError
-        If there is none of that name.
+    BagError lists similar names if the bag has no such topic.
     """
     full = name if name in bag.topics else '/' + name.lstrip('/')
     if full not in bag.topics:
@@ -129,14 +76,8 @@ def topic_in_bag(bag: BagReader, name: str) -> str:
 class Event:
     """A moment of a play.
 
-    Parameters
-    ----------
-    played : int
-        How long the play lasts until then, at the bag's own rate and over all rounds [ns].
-    time : int
-        The same on the bag's clock [ns].
-    message : Message or None
-        What is published; None if only the time goes on.
+    `played` is how long the play has lasted by then, by the bag's own rate and over all rounds
+    [ns]; `time` is the bag's clock [ns]; without a `message`, only the clock goes on.
     """
 
     played: int
@@ -152,25 +93,10 @@ def events(
     clock_rate: float = 0.0,
     loop: bool = False,
 ) -> Iterator[Event]:
-    """Line up what happens in a play.
+    """Yield what happens in a play: messages, which `read` returns anew for each round, and ticks.
 
-    Each round ends with an event at `end`, so that the silence after the last message counts.
-
-    Parameters
-    ----------
-    read : callable
-        Gives the messages in order of their log time, anew for each round.
-    begin, end : int
-        Times of the bag between which they are [ns].
-    clock_rate : float, optional
-        How often the time is told in between, from `begin` on, by the bag's clock [Hz]; 0 is never.
-    loop : bool, optional
-        Whether to start over at the end, for ever.
-
-    Returns
-    -------
-    iterator of Event
-        In order.
+    Ticks come `clock_rate` times a second of the bag's time, from `begin` on. Each round ends with
+    an event at `end`, so that the silence after the last message counts.
     """
     played = -begin
     while True:

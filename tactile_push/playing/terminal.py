@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Keys from the terminal that a process has, and a line on it that shows how things stand."""
+"""Read keys from the terminal of the process, and show a line of status on it."""
 
 import atexit
 import contextlib
@@ -20,16 +20,11 @@ LFLAG = 3  # index into the attributes of a terminal
 
 
 class Terminal:
-    """The terminal, as long as this process is in its foreground.
+    """The terminal of this process, while the process is in its foreground.
 
-    It is left as it was found when the process ends, and while it is suspended with Ctrl-Z. In the
-    background it is neither read nor written nor set: all of that would stop the process or
-    disturb others.
-
-    Parameters
-    ----------
-    hold, release : callable
-        Called before the process is suspended with Ctrl-Z and after it goes on.
+    It is left as it was found when the process ends, and while Ctrl-Z suspends the process: `hold`
+    is called before that and `release` after it. A process in the background neither reads the
+    terminal nor writes to it nor sets it: that would stop the process or disturb others.
     """
 
     def __init__(self, hold: Callable[[], None], release: Callable[[], None]) -> None:
@@ -46,13 +41,7 @@ class Terminal:
         return os.isatty(STDIN) or os.isatty(STDERR)
 
     def read_keys(self) -> list[str]:
-        """Give what was typed since the last call.
-
-        Returns
-        -------
-        list of str
-            Characters, and whole escape sequences.
-        """
+        """Return the characters and whole escape sequences typed since the last call."""
         if not _has_us(STDIN):
             return []
         with contextlib.suppress(OSError, termios.error):  # the terminal was closed
@@ -62,13 +51,7 @@ class Terminal:
         return []
 
     def show(self, line: str) -> None:
-        """Show a line in place of the last one.
-
-        Parameters
-        ----------
-        line : str
-            The line.
-        """
+        """Show a line in place of the last one."""
         if line != self._shown and _has_us(STDERR):
             self._write(f'\r{line}\x1b[K')
             self._shown = line
@@ -84,7 +67,7 @@ class Terminal:
             self._found = None
 
     def _take_keys_singly(self) -> None:
-        """Get each key at once and unseen; a shell has set this back if we were suspended."""
+        """Get each key at once and unechoed; a shell resets this while we are suspended."""
         attributes = termios.tcgetattr(STDIN)
         if attributes[LFLAG] & termios.ICANON:
             self._found = termios.tcgetattr(STDIN)
@@ -106,7 +89,7 @@ class Terminal:
 
 
 def _has_us(descriptor: int) -> bool:
-    """Tell whether it is a terminal that has this process in the foreground."""
+    """Return whether it is a terminal that has this process in the foreground."""
     try:
         return os.tcgetpgrp(descriptor) == os.getpgrp()
     except OSError:

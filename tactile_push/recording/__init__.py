@@ -1,3 +1,3 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Records topics into a bag."""
+"""Record topics into a bag."""

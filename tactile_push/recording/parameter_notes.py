@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Asks the package's nodes for their parameters, for whoever wants to note them down."""
+"""Ask the package's nodes for their parameters."""
 
 from collections.abc import Callable
 from functools import partial
@@ -21,17 +21,11 @@ ASK_AGAIN = 5  # looks after which an answer that has not come is lost
 
 
 class ParameterNotes:
-    """The parameters of the package's nodes, as each gives them the first time it is seen.
+    """The parameters of the package's nodes, as each node gives them when it is first seen.
 
-    A node that does not answer is left out; nobody waits for it.
-
-    Parameters
-    ----------
-    node : Node
-        The node that asks, and leaves itself out.
-    noted : callable
-        Told all that is known whenever a node has answered: full names without the leading slash
-        to parameters by name.
+    The asking node leaves itself out, and any node that does not answer. Whenever a node has
+    answered, `noted` gets all that is known: parameters by full node name, without its leading
+    slash.
     """
 
     def __init__(self, node: Node, noted: Callable[[dict[str, dict[str, Any]]], None]) -> None:
@@ -62,7 +56,7 @@ class ParameterNotes:
 
 
 class _Question:
-    """Asks one node what parameters it has, and then for their values."""
+    """Asks one node for the names of its parameters, and then for their values."""
 
     def __init__(self, node: Node, full_name: str) -> None:
         self._node = node
@@ -73,10 +67,10 @@ class _Question:
         self.answer: dict[str, Any] | None = None
 
     def ask(self) -> None:
-        """Ask as soon as there is somebody to answer, and again if no answer comes.
+        """Ask as soon as the node offers its services, and again if no answer comes.
 
-        The node may have heard of the question before it has heard of who reads the answer, which
-        is lost then.
+        If the node discovers the question before it discovers who reads the answer, the answer is
+        lost.
         """
         if not (self._lister.service_is_ready() and self._getter.service_is_ready()):
             return

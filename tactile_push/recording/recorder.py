@@ -17,7 +17,9 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
 from rosgraph_msgs.msg import Clock as ClockMessage
 
-from tactile_push.bags.writer import FLUSH_PERIOD, BagWriter
+from tactile_push.bags import BagWriter
+from tactile_push.bags.writer import FLUSH_PERIOD
+from tactile_push.interface import CLOCK
 from tactile_push.recording.simulated_time import SimulatedTime
 
 _TAKE_PERIOD = 0.02  # between looks for messages [s]
@@ -28,11 +30,9 @@ _WATCH_LOOKS = 10  # of these between two at the publishers of the topics that a
 # that must not lose any.
 _DEPTH = 5000
 
-_CLOCK = '/clock'
-
 
 class _TakenFrom(CallbackGroup):
-    """Keeps subscriptions from the executor, which needs too long for each message."""
+    """Keeps subscriptions from the executor, which takes too long for each message."""
 
     def can_execute(self, entity: object) -> bool:
         return False
@@ -56,24 +56,24 @@ class _Taken:
 
 
 class Recorder:
-    """Subscriptions whose messages go undecoded into a bag.
+    """Subscriptions whose messages are written to a bag undecoded.
 
     A topic is subscribed to as soon as it has a publisher. Its type hash and offered quality of
     service are those of the publishers that it has at that moment; the subscription asks for what
     all of them offer, and for less when one comes that offers less.
 
     A message gets the times that rosbag2 gives it (rosbag2_transport/src/rosbag2_transport/
-    recorder.cpp, create_subscription): received and sent, as the middleware stamped it. If the
-    node uses simulated time, the former is what ``/clock`` said when it was received, and nothing
-    is recorded until that runs but what is latched, at its first tick.
+    recorder.cpp, create_subscription): when it was received and sent, as the middleware stamped it.
+    If the node uses simulated time, the former is what ``/clock`` showed when the message was
+    received; until that clock runs nothing is recorded but latched messages, at its first tick.
 
-    A topic whose type is not installed, or another type than the one that is recorded, is
-    reported once.
+    If the type of a topic is not installed, or differs from the type that is recorded, the recorder
+    reports that once.
 
     Parameters
     ----------
     node : rclpy.node.Node
-        Node that subscribes, spun by the caller. If the bag cannot be written, OSError is raised
+        Node that subscribes; the caller spins it. If the bag cannot be written, OSError is raised
         there.
     topics : sequence of str or None
         Topics to record, expanded and remapped like all names of the node; None for all that are
@@ -101,7 +101,7 @@ class Recorder:
         if node.get_clock().ros_time_is_active:
             node.get_logger().info('waiting for /clock')
             profile = QoSProfile(depth=_DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
-            self._clock_subscription = self._subscribe(_CLOCK, ClockMessage, profile)
+            self._clock_subscription = self._subscribe(CLOCK, ClockMessage, profile)
             self._simulated = SimulatedTime()
         # Simulated time may stand still or not run yet.
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -170,7 +170,7 @@ class Recorder:
         self._subscriptions[topic] = self._subscribe(topic, type_, profile)
 
     def _judge(self, topic: str, type_name: str) -> None:
-        """Decide on the type of a topic, and say which types of it are not recorded."""
+        """Decide on the type of a topic, and report types that are not recorded."""
         if self._types.get(topic) == type_name or (topic, type_name) in self._refused:
             return
         reason = ''
@@ -218,7 +218,7 @@ class Recorder:
             for message in _take_all(topic, subscription)
         ]
         if self._simulated is not None:
-            for tick in _take_all(_CLOCK, self._clock_subscription):
+            for tick in _take_all(CLOCK, self._clock_subscription):
                 self._simulated.tick(tick.received, _clock_time(tick.data))
         for message in sorted(taken, key=lambda message: message.received):
             log_time = self._log_time(message)
@@ -229,13 +229,13 @@ class Recorder:
     def _log_time(self, message: _Taken) -> int | None:
         if self._simulated is None:
             return message.received
-        if message.topic == _CLOCK and (tick := _clock_time(message.data)):
+        if message.topic == CLOCK and (tick := _clock_time(message.data)):
             return tick  # even if it came a moment before its twin
         return self._simulated.at(message.received, latched=message.latched)
 
 
 def _take_all(topic: str, subscription: Subscription) -> Iterator[_Taken]:
-    """Take what waits in a subscription, but not for ever."""
+    """Take what waits in a subscription, but no more than a full queue."""
     latched = _is_latched(subscription)
     handle = subscription.handle
     with handle:
@@ -249,7 +249,7 @@ def _take_all(topic: str, subscription: Subscription) -> Iterator[_Taken]:
 
 
 def _clock_time(data: bytes) -> int:
-    """Give the time in a rosgraph_msgs/Clock [ns]."""
+    """Return the time in a rosgraph_msgs/Clock [ns]."""
     sec, nanosec = struct.unpack_from('<iI' if data[1] & 1 else '>iI', data, 4)
     return sec * 10**9 + nanosec
 
@@ -259,18 +259,7 @@ def _is_latched(subscription: Subscription) -> bool:
 
 
 def message_class(type_name: str) -> type:
-    """Return the Python class of a message type.
-
-    Parameters
-    ----------
-    type_name : str
-        For example ``'sensor_msgs/msg/JointState'``.
-
-    Raises
-    ------
-    LookupError
-        If the class is not installed.
-    """
+    """Return the Python class of a message type; LookupError if it is not installed."""
     package, *_, name = type_name.split('/')
     try:
         return getattr(import_module(f'{package}.msg'), name)
@@ -279,13 +268,7 @@ def message_class(type_name: str) -> type:
 
 
 def compatible_profile(publishers: Sequence[TopicEndpointInfo]) -> QoSProfile:
-    """Return the most demanding quality of service that all publishers of a topic offer.
-
-    Parameters
-    ----------
-    publishers : sequence of TopicEndpointInfo
-        What the graph tells about the publishers.
-    """
+    """Return the most demanding quality of service that all publishers of a topic offer."""
     offers = [publisher.qos_profile for publisher in publishers]
     reliable = all(offer.reliability == ReliabilityPolicy.RELIABLE for offer in offers)
     latched = all(offer.durability == DurabilityPolicy.TRANSIENT_LOCAL for offer in offers)
@@ -305,13 +288,7 @@ def _demands_more(ours: QoSProfile, offered: QoSProfile) -> bool:
 
 
 def qos_entry(profile: QoSProfile) -> dict[str, object]:
-    """Return a quality of service with the keys and words of a bag's metadata.
-
-    Parameters
-    ----------
-    profile : rclpy.qos.QoSProfile
-        For example that of a publisher, as the graph tells it.
-    """
+    """Return a quality of service with the keys and words of a bag's metadata."""
     return {
         'history': profile.history.short_key,
         'depth': profile.depth,
@@ -326,13 +303,7 @@ def qos_entry(profile: QoSProfile) -> dict[str, object]:
 
 
 def common_type_hash(publishers: Sequence[TopicEndpointInfo]) -> str:
-    """Return the hash of the message type on which all publishers agree that know one, or ''.
-
-    Parameters
-    ----------
-    publishers : sequence of TopicEndpointInfo
-        What the graph tells about the publishers of a topic.
-    """
+    """Return the type hash on which all publishers agree that know one, or ''."""
     known = [publisher.topic_type_hash for publisher in publishers]
     hashes = {str(type_hash) for type_hash in known if type_hash.version > 0}
     return hashes.pop() if len(hashes) == 1 else ''

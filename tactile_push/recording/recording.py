@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the nodes have in common that record."""
+"""Record topics and parameters: what the recorder and the experiment have in common."""
 
 import json
 from collections.abc import Sequence
@@ -17,21 +17,9 @@ from tactile_push.recording.recorder import Recorder
 
 
 class Recording:
-    """Records topics, with the software's version and the parameters of the package's nodes.
+    """Records topics, the software's version and the parameters of the package's nodes.
 
-    Parameters
-    ----------
-    node : Node
-        The node that records.
-    topics : sequence of str or None
-        Topics; None for all.
-    writer : BagWriter
-        Bag to record into, closed here.
-
-    Attributes
-    ----------
-    recorder : Recorder
-        What the topics are recorded with.
+    `topics` are those to record, None for all; `close` closes the writer.
     """
 
     def __init__(self, node: Node, topics: Sequence[str] | None, writer: BagWriter) -> None:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a simulated clock said when something was received."""
+"""What a simulated clock showed when something was received."""
 
 import math
 from bisect import bisect_right
@@ -11,8 +11,7 @@ _TICKS = 1000  # that are remembered
 class SimulatedTime:
     """The latest ticks of a simulated clock, and when they were received.
 
-    Messages and ticks come by different ways: which of two was there first is known from the
-    middleware's stamps alone.
+    Messages and ticks arrive separately: only the middleware's stamps tell which came first.
     """
 
     def __init__(self) -> None:
@@ -21,19 +20,11 @@ class SimulatedTime:
 
     @property
     def running(self) -> bool:
-        """Whether the clock runs; as for rcl, time 0 is before its start."""
+        """Whether the clock runs; as in rcl, time 0 means that it has not started."""
         return bool(self._ticks)
 
     def tick(self, received: int, time: int) -> None:
-        """Hear what the clock says.
-
-        Parameters
-        ----------
-        received : int
-            When the tick was received, by the system's clock [ns].
-        time : int
-            What it says [ns].
-        """
+        """Take in a tick that shows `time` and was `received` by the system's clock [ns]."""
         if self._ticks and received < self._ticks[-1][0]:
             # The system's clock was set back.
             self._ticks.clear()
@@ -44,19 +35,10 @@ class SimulatedTime:
             del self._ticks[:-_TICKS]
 
     def at(self, received: int, *, latched: bool) -> int | None:
-        """Give the simulated time at which a message was received.
+        """Return the simulated time at which a message was received by the system's clock [ns].
 
-        Parameters
-        ----------
-        received : int
-            The same by the system's clock [ns].
-        latched : bool
-            Whether the message is still there when the clock starts.
-
-        Returns
-        -------
-        int or None
-            Simulated time [ns]; None if the message was there and gone before the clock ran.
+        None if the message came before the clock ran, unless it is latched: then it is still there
+        when the clock starts.
         """
         if not self._ticks or (received < self._since and not latched):
             return None
