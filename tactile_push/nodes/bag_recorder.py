@@ -49,11 +49,11 @@ class BagRecorder(Node):
         self._diagnostics = Diagnostics(self, self._health, lambda: self._recording.recorder.counts)
 
     def destroy_node(self) -> None:
-        """Finish the bag and end."""
+        """Finish the bag, log how much was recorded, and end."""
         with ExitStack() as stack:
             stack.callback(super().destroy_node)
+            stack.callback(self._log_summary)  # even if the disk fails again
             self._recording.close()
-            self.get_logger().info(f'recorded {self._so_far()} into {self._output}')
 
     def _check_topics(self, topics: list[str]) -> None:
         if not topics:
@@ -76,12 +76,12 @@ class BagRecorder(Node):
             return Health(WARN, 'nothing to record yet', values)
         return Health(OK, 'recording', values)
 
-    def _so_far(self) -> str:
-        duration = time.monotonic() - self._began
-        bound = 'at most ' if self._writer.failed else ''
-        return (
-            f'{bound}{self._writer.message_count} messages in {duration:.1f} s, '
-            f'{self._writer.byte_count / 1e6:.3f} MB,'
+    def _log_summary(self) -> None:
+        writer, duration = self._writer, time.monotonic() - self._began
+        bound = 'at most ' if writer.failed else ''
+        self.get_logger().info(
+            f'recorded {bound}{writer.message_count} messages in {duration:.1f} s, '
+            f'{writer.byte_count / 1e6:.3f} MB, into {self._output}'
         )
 
 
