@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is different between two bags: topic by topic, message by message, field by field."""
+"""Compare two bags topic by topic, message by message, field by field."""
 
 import math
 import re
 from collections.abc import Callable, Collection, Iterator
 
+from tactile_push.bags import BagError, BagReader, Message, Topic
 from tactile_push.bags.headers import HeaderStamps
-from tactile_push.bags.reader import BagError, BagReader, Message, Topic
 from tactile_push.comparing.differences import Difference, FieldDiff, Tolerances, TopicDiff, is_part
 from tactile_push.comparing.fields import Lone, Unequal, compare_messages, field_paths, seconds
 from tactile_push.comparing.pairing import Pair, pairs_by_stamp, pairs_in_order
@@ -29,8 +29,8 @@ def diff(
     """Compare two bags.
 
     Messages of a topic belong together if their headers have the same stamp, the first with the
-    first where a stamp repeats; without a header, by their order. Memory is bounded: see
-    `tactile_push.comparing.pairing.pairs_by_stamp`. A topic without messages is as good as none.
+    first where a stamp repeats; without headers, by their order. Memory is bounded: see
+    `tactile_push.comparing.pairing.pairs_by_stamp`. A topic without messages counts as missing.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def diff(
     times : bool, optional
         Whether to compare log and publish times too.
     progress : callable, optional
-        Told now and then how many messages have been read.
+        Gets the number of messages read, now and then.
 
     Returns
     -------
@@ -55,7 +55,7 @@ def diff(
     Raises
     ------
     BagError
-        If a bag cannot be read, or neither has a topic or a field that is asked for.
+        If a bag cannot be read, or neither has a topic or a field that is named.
     """
     there = {name for bag in (a, b) for name in bag.topics}
     tolerances = tolerances or Tolerances()
@@ -79,7 +79,7 @@ def diff(
 
 
 class _Comparison:
-    """Compares two bags."""
+    """A comparison in progress."""
 
     def __init__(self, a: BagReader, b: BagReader, tolerances: Tolerances, times: bool) -> None:
         self._a = a
@@ -92,7 +92,7 @@ class _Comparison:
         self._known: dict[tuple[str, str], float] = {}
 
     def start(self, name: str) -> TopicDiff:
-        """Return what the topics say before a message is read."""
+        """Return what the topics show before a message is read."""
         in_a, in_b = self._a.topics.get(name), self._b.topics.get(name)
         counts = self._a.counts.get(name, 0), self._b.counts.get(name, 0)
         result = TopicDiff(
@@ -138,7 +138,7 @@ class _Comparison:
         ]
 
     def compare(self, result: TopicDiff, pair: Pair) -> None:
-        """Take a pair of messages."""
+        """Add a pair of messages to the result."""
         if pair.a is None:
             first = result.first_only_b
             result.only_b += 1
@@ -191,14 +191,14 @@ class _Comparison:
 
     @staticmethod
     def finish(result: TopicDiff) -> TopicDiff:
-        """Say what only shows when all was read."""
+        """Add what is only known when all was read."""
         if result.by_stamp and result.only_a and result.only_b and not result.compared:
             result.remarks.append('no stamp is in both bags')
         return result
 
 
 def _check_field(a: BagReader, b: BagReader, topic: str, field: str, times: bool) -> None:
-    """Refuse a tolerance for a field that no message has; the first message mostly has it."""
+    """Refuse a tolerance for a field that no message has; the first message usually has it."""
     known = {'log_time', 'publish_time'} if times else set()
     if field in known:
         return

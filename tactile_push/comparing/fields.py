@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Where two decoded messages differ."""
+"""Find where two decoded messages differ."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -17,17 +17,9 @@ _JOINT_ARRAYS = ('position', 'velocity', 'effort')
 class Unequal(NamedTuple):
     """A place at which two messages differ.
 
-    Parameters
-    ----------
-    field : str
-        Path of the field, without the places in arrays: ``'poses[].position.x'``. Values of a
-        joint state have the joint's name: ``'position.theta'``.
-    where : str
-        The same with the place: ``'poses[3].position.x'``.
-    a, b : object
-        The values.
-    distance : float
-        Size of the difference of two numbers; infinite where there is none to speak of.
+    `field` is the path of the field without the places in arrays: ``'poses[].position.x'``; values
+    of a joint state have the joint's name: ``'position.theta'``. `where` has the places:
+    ``'poses[3].position.x'``. `distance` is the size of the difference, infinite if it has none.
     """
 
     field: str
@@ -39,68 +31,28 @@ class Unequal(NamedTuple):
 
 @dataclass(frozen=True)
 class Lone:
-    """A field that only one of two messages has.
-
-    Parameters
-    ----------
-    field : str
-        Path of the field.
-    in_a : bool
-        Whether the first message has it.
-    """
+    """A field that only one of two messages has."""
 
     field: str
     in_a: bool
 
 
 def compare_messages(a: Any, b: Any) -> Iterator[Unequal | Lone]:
-    """Find the differences of two decoded messages.
+    """Find the differences of two decoded messages, in the order of their fields.
 
     Every field is compared: NaN equals NaN, a time is one number [s]. Of an array of numbers the
-    first and the largest difference are given. Joint states are matched by the joints' names.
-
-    Parameters
-    ----------
-    a, b : object
-        The messages.
-
-    Returns
-    -------
-    iterator of Unequal or Lone
-        The differences, in the order of the fields.
+    first and the largest difference are found. Joint states are matched by the joints' names.
     """
     return _compare(a, b, '', '')
 
 
 def field_paths(message: Any) -> Iterator[str]:
-    """Give the paths that the fields of a message have in a comparison.
-
-    Parameters
-    ----------
-    message : object
-        The decoded message.
-
-    Yields
-    ------
-    str
-        As `Unequal.field`; of an array also that of its length.
-    """
+    """Yield the path of each field of a message as in `Unequal.field`, and of each length."""
     return _paths(message, '')
 
 
 def seconds(time: int) -> str:
-    """Return a time in seconds, to the nanosecond.
-
-    Parameters
-    ----------
-    time : int
-        The time [ns].
-
-    Returns
-    -------
-    str
-        A number.
-    """
+    """Return a time [ns] in seconds, with nine decimals."""
     sign = '-' if time < 0 else ''
     return f'{sign}{abs(time) // 10**9}.{abs(time) % 10**9:09d}'
 
@@ -165,7 +117,7 @@ def _compare_times(a: Any, b: Any, field: str, where: str) -> Iterator[Unequal]:
 
 @dataclass(frozen=True)
 class _Joints:
-    """The names of two joint states, and where in them is what both have."""
+    """The joints' names that only one of two joint states has, and the places of the others."""
 
     only_a: list[str]
     only_b: list[str]
@@ -228,7 +180,7 @@ def _distances(a: Sequence[float], b: Sequence[float]) -> np.ndarray:
 
 
 def _distance(a: Any, b: Any) -> float:
-    """Return how far two values are apart: 0 if they are the same, infinity if it has no size."""
+    """Return how far two values are apart: 0 if they are equal, infinity if it has no size."""
     if a == b or (a != a and b != b):
         return 0.0
     if isinstance(a, (int, float)) and isinstance(b, (int, float)) and type(a) is type(b):

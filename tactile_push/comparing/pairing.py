@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which message of one bag belongs to which message of another."""
+"""Find the message of one bag that belongs to a message of another."""
 
 from collections import OrderedDict, deque
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from itertools import zip_longest
 
+from tactile_push.bags import BagReader, Message
 from tactile_push.bags.headers import HeaderStamps
-from tactile_push.bags.reader import BagReader, Message
 
 # What waits at the most for its partner in the other bag; the oldest message is given up then.
 _MOST_MESSAGES = 10_000
@@ -19,16 +19,9 @@ _LATELY = 1000
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """Two messages of a topic that belong together, or one that has no partner.
+    """Two messages of a topic that belong together, or one without a partner.
 
-    Parameters
-    ----------
-    topic : str
-        Name of the topic.
-    key : int
-        What they have in common: the stamp [ns], or the place in the topic, counted from 0.
-    a, b : Message or None
-        The messages of the two bags; one may be missing.
+    Their `key` is the stamp [ns] that they share, or their place in the topic, counted from 0.
     """
 
     topic: str
@@ -38,20 +31,7 @@ class Pair:
 
 
 def pairs_in_order(a: BagReader, b: BagReader, topic: str) -> Iterator[Pair]:
-    """Pair the first message of a topic with the first, and so on.
-
-    Parameters
-    ----------
-    a, b : BagReader
-        The bags.
-    topic : str
-        Name of the topic.
-
-    Returns
-    -------
-    iterator of Pair
-        All messages of the topic.
-    """
+    """Pair the first message of a topic with the first, and so on."""
     both = zip_longest(a.messages([topic]), b.messages([topic]))
     for place, (message_a, message_b) in enumerate(both):
         yield Pair(topic, place, message_a, message_b)
@@ -60,23 +40,11 @@ def pairs_in_order(a: BagReader, b: BagReader, topic: str) -> Iterator[Pair]:
 def pairs_by_stamp(a: BagReader, b: BagReader, topics: Collection[str]) -> Iterator[Pair]:
     """Pair messages with the same stamp, the first such of a topic with the first, and so on.
 
-    Both bags are read once and side by side, and stamps may come in any order. A message waits
-    until its partner comes, while no more than 10,000 messages and 16 MB of the same bag wait;
-    then it has none. A bag that starts late, ends early or lacks a topic for longer than that
-    does no harm. Partners are missed if the bags have nothing in common for so long, or what they
-    have is out of order by so much.
-
-    Parameters
-    ----------
-    a, b : BagReader
-        The bags.
-    topics : collection of str
-        Names of the topics, all with headers in both bags.
-
-    Returns
-    -------
-    iterator of Pair
-        All messages of the topics. Messages without a partner may come late.
+    All topics must have headers in both bags. Both bags are read once, side by side, and stamps may
+    come in any order. A message waits for its partner while no more than 10,000 messages and 16 MB
+    of the same bag wait; after that it has none, and comes late. A bag may start late, end early or
+    lack a topic for longer than that. Partners are missed if the bags have nothing in common for so
+    long, or if what they have in common is out of order by so much.
     """
     sides = (_Side(a, topics), _Side(b, topics))
     pace = _Pace(*sides)
@@ -102,7 +70,7 @@ def pairs_by_stamp(a: BagReader, b: BagReader, topics: Collection[str]) -> Itera
 
 
 def _single(left: '_Waiting', of_a: bool) -> Pair:
-    """Return a message that has no partner."""
+    """Return a message without a partner."""
     pair = (left.message, None) if of_a else (None, left.message)
     return Pair(left.message.topic, left.stamp, *pair)
 
@@ -116,17 +84,11 @@ class _Waiting:
 
 
 class _Side:
-    """One bag: where its reader is and which of its messages wait for their partners.
+    """One bag: how far it has been read, and which of its messages wait for their partners.
 
-    Attributes
-    ----------
-    newest, read_at : dict of str to int
-        Last stamp read, and how many messages of both bags were read before it, by topic.
-    waiting : OrderedDict of int to _Waiting
-        By the order in which they were read.
-    ahead : set of int
-        Those of them that the other bag has not come to yet. The others may still find a partner
-        if the other bag's stamps are out of order.
+    `newest` has the last stamp read and `read_at` how many messages of both bags were read before
+    it, by topic. `waiting` is in the order of reading. `ahead` are those of them that the other bag
+    has not reached yet; the others find a partner only if its stamps are out of order.
     """
 
     def __init__(self, bag: BagReader, topics: Collection[str]) -> None:
@@ -162,13 +124,13 @@ class _Side:
         return self._remove(numbers[0]).message if numbers else None
 
     def pass_by(self, topic: str, stamp: int) -> None:
-        """Take note that the other bag has come to a stamp of a topic."""
+        """Note that the other bag has reached a stamp of a topic."""
         queue = self._queues[topic]
         while queue and (queue[0] not in self.waiting or self.waiting[queue[0]].stamp < stamp):
             self.ahead.discard(queue.popleft())
 
     def give_up(self) -> Iterator[_Waiting]:
-        """Return the messages that cannot wait any longer."""
+        """Yield the messages that cannot wait any longer."""
         while len(self.waiting) > _MOST_MESSAGES or (
             self._bytes > _MOST_BYTES and len(self.waiting) > 1
         ):
@@ -187,11 +149,11 @@ class _Side:
 
 
 class _Pace:
-    """Decides which bag is to be read next, so that partners are read soon after one another.
+    """Decides which bag is read next, so that partners are read soon after one another.
 
-    The stamps of the topic that came in both bags most recently tell which one is behind. If
-    there was none lately, because one bag lacks something or its clock was set, it is the one of
-    which fewer messages wait for the other bag to get there.
+    The stamps of the topic that came in both bags most recently tell which bag is behind. If no
+    topic did lately, because one bag lacks something or its clock was set, the bag is read of which
+    fewer messages wait for the other bag to reach them.
     """
 
     def __init__(self, a: _Side, b: _Side) -> None:
@@ -212,7 +174,7 @@ class _Pace:
         return min(a, b, key=lambda side: (len(side.ahead), len(side.waiting)))
 
     def take_note(self, side: _Side, other: _Side, topic: str, stamp: int) -> None:
-        """Take note of a message that was read of a bag."""
+        """Note that a message of a bag was read."""
         other.pass_by(topic, stamp)
         side.newest[topic] = stamp
         side.read_at[topic] = self._read
