@@ -13,49 +13,14 @@ import yaml
 
 import tactile_push.mechanics
 from tactile_push.devices import decode
-from tactile_push.nodes.active_sensing import ActiveSensingNode
-from tactile_push.nodes.bag_player import BagPlayer
-from tactile_push.nodes.bag_recorder import BagRecorder
-from tactile_push.nodes.contact_geometry import ContactGeometry
-from tactile_push.nodes.experiment import Experiment
-from tactile_push.nodes.push_controller import PushController
-from tactile_push.nodes.sensor_driver import SensorDriver
-from tactile_push.nodes.sim_plant import SimPlant
+from tactile_push.parameters import PARAMETERS
 
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / 'README.md').read_text()
-PARAMETERS = (ROOT / 'docs' / 'reference' / 'parameters.md').read_text()
 SIMULATION = (ROOT / 'docs' / 'reference' / 'simulation.md').read_text()
 THEORY = (ROOT / 'docs' / 'theory.md').read_text()
 SAFETY = (ROOT / 'docs' / 'safety.md').read_text()
 WIRE_FORMAT = (ROOT / 'docs' / 'wire_format.md').read_text()
-
-
-@pytest.mark.parametrize(
-    'node',
-    [
-        SensorDriver,
-        ContactGeometry,
-        PushController,
-        ActiveSensingNode,
-        SimPlant,
-        Experiment,
-        BagRecorder,
-        BagPlayer,
-    ],
-)
-def test_page_has_every_parameter_with_its_default_and_unit(node):
-    table = PARAMETERS.split(f'## {node.NAME}\n\n')[1].split('\n\n')[0]
-    rows = [[cell.strip(' `') for cell in line.split('|')[1:-1]] for line in table.splitlines()[2:]]
-    assert [row[0] for row in rows] == [parameter.name for parameter in node.PARAMETERS.declared()]
-    for row, parameter in zip(rows, node.PARAMETERS.declared(), strict=True):
-        assert len(row) == 4
-        shown = yaml.safe_load(row[1]) or type(parameter.default)()
-        if isinstance(parameter.default, float):
-            assert float(shown) == pytest.approx(parameter.default, rel=1e-3)
-        else:
-            assert shown == parameter.default
-        assert row[2] == parameter.unit
 
 
 def test_documentation_builds_without_a_warning(tmp_path: Path):
@@ -84,11 +49,8 @@ def test_documentation_builds_without_a_warning(tmp_path: Path):
 
 @pytest.mark.parametrize('file', sorted((ROOT / 'config').glob('*.yaml')), ids=lambda f: f.stem)
 def test_parameter_files_name_parameters_of_their_nodes_within_their_ranges(file):
-    known = {
-        node.NAME: node for node in (ContactGeometry, PushController, ActiveSensingNode, SimPlant)
-    }
     for key, content in yaml.safe_load(file.read_text()).items():
-        declared = {p.name: p for p in known[key.removeprefix('/**/')].PARAMETERS.declared()}
+        declared = {p.name: p for p in PARAMETERS[key.removeprefix('/**/')].declared()}
         for name, value in content['ros__parameters'].items():
             assert type(value) is type(declared[name].default)
             if isinstance(value, float):
