@@ -145,13 +145,15 @@ def test_import_of_the_core_and_the_command_does_not_load_numba_or_ros():
         'import json, sys\n'
         'from importlib import import_module\n'
         'loaded = {}\n'
-        "for part in ('', '.tactile', '.control', '.estimation', '.cli'):\n"
+        "for part in ('', '.tactile', '.control', '.estimation', '.parameters', '.cli'):\n"
         "    import_module(f'tactile_push{part}')\n"
         "    slow = {'numba', 'rclpy', 'matplotlib'} & set(sys.modules)\n"
         '    loaded[part] = sorted(slow)\n'
         'print(json.dumps(loaded))'
     )
-    assert loaded == {part: [] for part in ('', '.tactile', '.control', '.estimation', '.cli')}
+    assert loaded == {
+        part: [] for part in ('', '.tactile', '.control', '.estimation', '.parameters', '.cli')
+    }
 
 
 def test_import_of_mechanics_and_simulation_compiles_nothing():

@@ -9,7 +9,7 @@ from tactile_push.parameters.bag_recorder import BagRecorderParameters
 from tactile_push.parameters.config_file import config_file
 from tactile_push.parameters.contact_geometry import ContactGeometryParameters
 from tactile_push.parameters.experiment import ExperimentParameters
-from tactile_push.parameters.parameter import NodeParameters, Parameter, parameter
+from tactile_push.parameters.parameter import NodeParameters, Parameter
 from tactile_push.parameters.push_controller import PushControllerParameters
 from tactile_push.parameters.sensor_driver import SensorDriverParameters
 from tactile_push.parameters.sim_plant import SimPlantParameters
@@ -39,5 +39,4 @@ __all__ = [
     'SensorDriverParameters',
     'SimPlantParameters',
     'config_file',
-    'parameter',
 ]

@@ -1,147 +1,52 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of `active_sensing`, and the estimator that they make."""
+"""The parameters of `active_sensing`; `tactile_push.parameters.estimator` makes the estimator."""
 
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
-from tactile_push.estimation import (
-    ActiveSensing,
-    DiskEstimator,
-    FingerMotion,
-    ObjectEstimator,
-    edges_of,
-)
+from tactile_push.paper import BLOCK_EDGE, BLOCK_L
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
 
-BLOCK = [-0.025, -0.02375, 0.025, -0.02375, 0.025, 0.02375, -0.025, 0.02375]
+X, Y = BLOCK_EDGE / 2.0, BLOCK_L  # of a corner of the paper's block [m]
 
 
 @dataclass(frozen=True)
 class ActiveSensingParameters(NodeParameters):
     """What is known of the object beforehand, and of the rig."""
 
-    vertices: list[float] = parameter(
-        BLOCK,
-        'm',
+    # fmt: off
+    vertices: list[float] = parameter([-X, -Y, X, -Y, X, Y, -X, Y], 'm',
         'outline of the object: x, y of every corner from its centre of mass, counterclockwise',
-        read_only=True,
-    )
-    edge: int = parameter(
-        -1,
-        '',
+        read_only=True)
+    edge: int = parameter(-1, '',
         'the pushed edge if it is known, 0 from the first corner to the second; -1 if not',
-        -1,
-        1000,
-        read_only=True,
-    )
-    disk_radius: float = parameter(
-        0.0,
-        'm',
+        -1, 1000, read_only=True)
+    disk_radius: float = parameter(0.0, 'm',
         'radius of a round object, which has no vertices; 0 if it is not round',
-        0.0,
-        1.0,
-        read_only=True,
-    )
-    l_share: float = parameter(
-        0.085,
-        '',
+        0.0, 1.0, read_only=True)
+    l_share: float = parameter(0.085, '',
         'standard deviation of the distance from an edge to the centre of mass, as a share of it',
-        0.0,
-        0.3,
-        read_only=True,
-    )
-    c_min: float = parameter(
-        0.005, 'm', 'least c = m_max / f_max that is possible', 1e-4, 1.0, read_only=True
-    )
-    c_max: float = parameter(
-        0.036, 'm', 'largest c = m_max / f_max that is possible', 1e-4, 1.0, read_only=True
-    )
-    mu_c_min: float = parameter(
-        0.0, '', 'least friction between finger and object that is possible', 0.0, read_only=True
-    )
-    mu_c_max: float = parameter(
-        math.inf,
-        '',
+        0.0, 0.3, read_only=True)
+    c_min: float = parameter(0.005, 'm',
+        'least c = m_max / f_max that is possible', 1e-4, 1.0, read_only=True)
+    c_max: float = parameter(0.036, 'm',
+        'largest c = m_max / f_max that is possible', 1e-4, 1.0, read_only=True)
+    mu_c_min: float = parameter(0.0, '',
+        'least friction between finger and object that is possible', 0.0, read_only=True)
+    mu_c_max: float = parameter(math.inf, '',
         'largest friction between finger and object that is possible, .inf too',
-        0.0,
-        read_only=True,
-    )
-    noise: float = parameter(
-        0.0035, 'rad', 'standard deviation of the readings of theta', 1e-5, 0.5, read_only=True
-    )
+        0.0, read_only=True)
+    noise: float = parameter(0.0035, 'rad',
+        'standard deviation of the readings of theta', 1e-5, 0.5, read_only=True)
     finger_radius: float = shared.finger_radius
-    finger_lag: float = parameter(
-        0.0,
-        's',
-        'time constant with which the finger follows its commands',
-        0.0,
-        10.0,
-        read_only=True,
-    )
-    finger_delay: float = parameter(
-        0.0, 's', 'time before a command has any effect on the finger', 0.0, 10.0, read_only=True
-    )
+    finger_lag: float = parameter(0.0, 's',
+        'time constant with which the finger follows its commands', 0.0, 10.0, read_only=True)
+    finger_delay: float = parameter(0.0, 's',
+        'time before a command has any effect on the finger', 0.0, 10.0, read_only=True)
     belt_speed: float = shared.belt_speed
-    contact_timeout: float = parameter(
-        0.3,
-        's',
+    contact_timeout: float = parameter(0.3, 's',
         'after longer without a reading or a control period the estimate starts over',
-        0.01,
-        10.0,
-        read_only=True,
-    )
-
-
-def make_sensing(p: ActiveSensingParameters) -> ActiveSensing:
-    """Make active sensing from the values of the parameters.
-
-    Parameters
-    ----------
-    p : ActiveSensingParameters
-        The values.
-
-    Returns
-    -------
-    ActiveSensing
-        It knows nothing yet.
-
-    Raises
-    ------
-    ValueError
-        If the outline is none, has no such edge, or if a range is empty.
-    """
-    for name in ('c', 'mu_c'):
-        low, high = getattr(p, f'{name}_min'), getattr(p, f'{name}_max')
-        if not (low < high or (name == 'mu_c' and low == high)):
-            raise ValueError(f'{name}_max: expected more than {name}_min = {low:g}, got {high:g}')
-    estimator: ObjectEstimator | DiskEstimator
-    if p.disk_radius > 0.0:
-        estimator = DiskEstimator(p.disk_radius, p.noise, radius=p.finger_radius)
-    else:
-        edges = edges_of(_points(p.vertices))
-        if p.edge >= len(edges):
-            raise ValueError(f'edge: expected -1 to {len(edges) - 1}, got {p.edge}')
-        if p.edge >= 0:
-            edges = edges[p.edge : p.edge + 1]
-        estimator = ObjectEstimator(
-            edges,
-            p.noise,
-            c=(p.c_min, p.c_max),
-            mu_c=(p.mu_c_min, p.mu_c_max),
-            l_share=p.l_share,
-            radius=p.finger_radius,
-        )
-    motion = FingerMotion(p.finger_lag, p.finger_delay)
-    return ActiveSensing(estimator, motion, p.belt_speed, p.contact_timeout)
-
-
-def _points(vertices: list[float]) -> np.ndarray:
-    if len(vertices) % 2 or len(vertices) < 6:
-        raise ValueError(
-            f'vertices: expected x and y of three corners or more, got {len(vertices)} numbers'
-        )
-    return np.array(vertices).reshape(-1, 2)
+        0.01, 10.0, read_only=True)
+    # fmt: on

@@ -10,17 +10,17 @@ from ament_index_python.packages import get_package_share_directory
 
 
 def config_file(name: str) -> Path:
-    """Find one of the package's configuration files.
+    """Find a configuration file: beside the package in a checkout, else where it was installed.
 
     Parameters
     ----------
     name : str
-        Its name in config/.
+        Name of the file in config/.
 
     Returns
     -------
-    path
-        The file beside the package in a checkout, else where it was installed.
+    Path
+        Where it is.
     """
     beside = Path(__file__).resolve().parents[2] / 'config' / name
     if beside.exists():

@@ -5,6 +5,7 @@
 import math
 from dataclasses import dataclass
 
+from tactile_push import paper
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
 from tactile_push.tactile import JUMP_TOLERANCE, MAX_THETA_RATE, ContactFinder
@@ -14,75 +15,34 @@ from tactile_push.tactile import JUMP_TOLERANCE, MAX_THETA_RATE, ContactFinder
 class ContactGeometryParameters(NodeParameters):
     """The finger tip, and which readings to believe."""
 
-    finger_radius: float = parameter(
-        shared.FINGER_RADIUS, 'm', "effective radius of the finger's disk", 1e-4, 1.0
-    )
-    use_joint_states: bool = parameter(
-        True,
-        '',
+    # fmt: off
+    finger_radius: float = parameter(paper.FINGER_RADIUS, 'm',
+        "effective radius of the finger's disk", 1e-4, 1.0)
+    use_joint_states: bool = parameter(True, '',
         'take the direction of the finger tip from joint_states; otherwise it is mount_angle',
-        read_only=True,
-    )
-    mount_angle: float = parameter(
-        shared.MOUNT_ANGLE,
-        'rad',
-        'angle of the finger tip in finger_base at joint angles zero',
-        -6.3,
-        6.3,
-    )
-    joint_names: list[str] = parameter(
-        shared.JOINT_NAMES,
-        '',
+        read_only=True)
+    mount_angle: float = parameter(shared.MOUNT_ANGLE, 'rad',
+        'angle of the finger tip in finger_base at joint angles zero', -6.3, 6.3)
+    joint_names: list[str] = parameter(shared.JOINT_NAMES, '',
         'the moving joints in joint_states whose angles add up to the direction of the tip',
-        read_only=True,
-    )
-    joint_state_timeout: float = parameter(
-        0.1, 's', 'longest time between a reading and the joint state used for it', 0.001, 10.0
-    )
-    max_out_of_plane: float = parameter(
-        0.2,
-        '',
-        'largest size of cos(elevation) sin(azimuth), by which the direction of a contact '
-        'sticks out of the plane of motion',
-        0.001,
-        1.0,
-    )
-    detectable_range: float = parameter(
-        math.pi / 2.0,
-        'rad',
-        'largest angle between the pole and a contact that the sensor detects properly; pi/2 '
-        'is the whole hemisphere',
-        0.01,
-        1.6,
-    )
-    max_theta_rate: float = parameter(
-        MAX_THETA_RATE,
-        'rad/s',
-        'how fast theta can turn; it grows with the speed of the belt',
-        0.01,
-        1000.0,
-    )
-    jump_tolerance: float = parameter(
-        JUMP_TOLERANCE,
-        'rad',
-        'how far two readings of the same theta may differ; pi refuses no jump',
-        0.001,
-        3.2,
-    )
+        read_only=True)
+    joint_state_timeout: float = parameter(0.1, 's',
+        'longest time between a reading and the joint state used for it', 0.001, 10.0)
+    max_out_of_plane: float = parameter(0.2, '',
+        'largest size of cos(elevation) sin(azimuth), by which the direction of a contact sticks '
+        'out of the plane of motion', 0.001, 1.0)
+    detectable_range: float = parameter(math.pi / 2.0, 'rad',
+        'largest angle between the pole and a contact that the sensor detects properly; pi/2 is '
+        'the whole hemisphere', 0.01, 1.6)
+    max_theta_rate: float = parameter(MAX_THETA_RATE, 'rad/s',
+        'how fast theta can turn; it grows with the speed of the belt', 0.01, 1000.0)
+    jump_tolerance: float = parameter(JUMP_TOLERANCE, 'rad',
+        'how far two readings of the same theta may differ; pi refuses no jump', 0.001, 3.2)
+    # fmt: on
 
 
 def make_finder(p: ContactGeometryParameters) -> ContactFinder:
-    """Make the contact finder from the values of the parameters.
-
-    Parameters
-    ----------
-    p : ContactGeometryParameters
-        The values.
-
-    Returns
-    -------
-    ContactFinder
-        It has felt nothing yet.
+    """Make a contact finder that has felt nothing yet.
 
     Raises
     ------
@@ -98,15 +58,7 @@ def make_finder(p: ContactGeometryParameters) -> ContactFinder:
 
 
 def take_values(finder: ContactFinder, p: ContactGeometryParameters) -> None:
-    """Set the finder's values that may change while it runs.
-
-    Parameters
-    ----------
-    finder : ContactFinder
-        The finder.
-    p : ContactGeometryParameters
-        The values.
-    """
+    """Set the finder's values that may change while it runs."""
     finder.radius = p.finger_radius
     finder.max_out_of_plane = p.max_out_of_plane
     finder.detectable_range = p.detectable_range

@@ -98,26 +98,8 @@ def parameter(
 ) -> T:
     """Declare a parameter as a field of a subclass of `NodeParameters`.
 
-    Parameters
-    ----------
-    default : bool, int, float, str or list
-        Value unless somebody gives another; every value has its type.
-    unit : str
-        Unit for people, '' if there is none.
-    words : str
-        What the parameter is.
-    lower, upper : float or int, optional
-        Closed range of a number; a whole number needs both.
-    choices : tuple of str, optional
-        All values that a text may have.
-    read_only : bool, optional
-        Whether the value is fixed once the node runs.
-
-    Returns
-    -------
-    field
-        Field of a dataclass, which mypy takes for the default. Several dataclasses may share it
-        under the same name.
+    The arguments are those of `Parameter`. mypy takes the field for the default. Several nodes may
+    share a field under the same name.
     """
     known = {
         'default': default,

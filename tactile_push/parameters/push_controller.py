@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parameters of `push_controller`, and the control that they make."""
 
-import math
 from dataclasses import dataclass
 
+from tactile_push import paper
 from tactile_push.control import Limits, PushControl, PushLaw
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
@@ -17,87 +17,44 @@ LIMITS = Limits()
 class PushControllerParameters(NodeParameters):
     """The law (18), what bounds its commands and stops the finger, and the finger's links."""
 
-    kp: float = parameter(0.05, 'rad/rad', 'proportional gain of the law (18)', 0.0, 100.0)
-    kd: float = parameter(5.0, 'rad/rad', 'derivative gain of the law (18)', 0.0, 1000.0)
-    theta_desired: float = parameter(
-        math.radians(-10.0), 'rad', 'desired angle of the edge', -1.5, 1.5
-    )
-    phi_min: float = parameter(
-        math.radians(33.0), 'rad', 'smallest push angle', 0.1, 1.57, read_only=True
-    )
-    phi_max: float = parameter(
-        2.5656340004316647, 'rad', 'largest push angle', 1.58, 3.04, read_only=True
-    )
+    # fmt: off
+    kp: float = parameter(paper.KP, 'rad/rad', 'proportional gain of the law (18)', 0.0, 100.0)
+    kd: float = parameter(paper.KD, 'rad/rad', 'derivative gain of the law (18)', 0.0, 1000.0)
+    theta_desired: float = parameter(paper.THETA_DESIRED, 'rad',
+        'desired angle of the edge', -1.5, 1.5)
+    phi_min: float = parameter(paper.PHI_MIN, 'rad',
+        'smallest push angle', 0.1, 1.57, read_only=True)
+    phi_max: float = parameter(paper.PHI_MAX, 'rad',
+        'largest push angle', 1.58, 3.04, read_only=True)
     belt_speed: float = shared.belt_speed
-    control_rate: float = parameter(
-        shared.CONTROL_RATE, 'Hz', 'rate of the law', 0.1, 200.0, read_only=True
-    )
-    contact_timeout: float = parameter(
-        LIMITS.contact_timeout,
-        's',
-        'the finger stops after this long without a contact',
-        0.01,
-        10.0,
-    )
-    max_ticks_lost: int = parameter(
-        LIMITS.max_ticks_lost,
-        '',
-        'the finger stops after more control periods in a row without a tick',
-        0,
-        100,
-    )
+    control_rate: float = parameter(paper.CONTROL_RATE, 'Hz',
+        'rate of the law', 0.1, 200.0, read_only=True)
+    contact_timeout: float = parameter(LIMITS.contact_timeout, 's',
+        'the finger stops after this long without a contact', 0.01, 10.0)
+    max_ticks_lost: int = parameter(LIMITS.max_ticks_lost, '',
+        'the finger stops after more control periods in a row without a tick', 0, 100)
     max_speed: float = parameter(LIMITS.max_speed, 'm/s', 'bound on the velocity', 1e-4, 1.0)
-    max_acceleration: float = parameter(
-        LIMITS.max_acceleration,
-        'm/s^2',
-        'bound on the change of the velocity, except to stop',
-        1e-3,
-        100.0,
-    )
-    workspace_min: float = parameter(
-        LIMITS.workspace_min,
-        'm',
+    max_acceleration: float = parameter(LIMITS.max_acceleration, 'm/s^2',
+        'bound on the change of the velocity, except to stop', 1e-3, 100.0)
+    workspace_min: float = parameter(LIMITS.workspace_min, 'm',
         'where the finger stops moving left, x of its disk in finger_base',
-        -10.0,
-        10.0,
-        read_only=True,
-    )
-    workspace_max: float = parameter(
-        LIMITS.workspace_max,
-        'm',
+        -10.0, 10.0, read_only=True)
+    workspace_max: float = parameter(LIMITS.workspace_max, 'm',
         'where the finger stops moving right, x of its disk in finger_base',
-        -10.0,
-        10.0,
-        read_only=True,
-    )
-    joint_state_timeout: float = parameter(
-        LIMITS.joint_state_timeout,
-        's',
-        'the finger stops after this long without joint_states, if there ever were any',
-        0.01,
-        10.0,
-    )
-    joint_names: list[str] = parameter(
-        shared.JOINT_NAMES, '', 'the two moving joints in joint_states', read_only=True
-    )
+        -10.0, 10.0, read_only=True)
+    joint_state_timeout: float = parameter(LIMITS.joint_state_timeout, 's',
+        'the finger stops after this long without joint_states, if there ever were any', 0.01, 10.0)
+    joint_names: list[str] = parameter(shared.JOINT_NAMES, '',
+        'the two moving joints in joint_states', read_only=True)
     proximal_length: float = shared.proximal_length
     distal_length: float = shared.distal_length
     mount_angle: float = shared.mount_angle
     autostart: bool = shared.autostart
+    # fmt: on
 
 
 def make_control(p: PushControllerParameters) -> PushControl:
-    """Make the control from the values of the parameters.
-
-    Parameters
-    ----------
-    p : PushControllerParameters
-        The values.
-
-    Returns
-    -------
-    PushControl
-        The control, inactive.
+    """Make the control, inactive.
 
     Raises
     ------
@@ -114,31 +71,12 @@ def make_control(p: PushControllerParameters) -> PushControl:
 
 
 def make_finger(p: PushControllerParameters) -> PlanarFinger:
-    """Make the finger's links from the values of the parameters.
-
-    Parameters
-    ----------
-    p : PushControllerParameters
-        The values.
-
-    Returns
-    -------
-    PlanarFinger
-        The two links.
-    """
+    """Make the finger's two links."""
     return PlanarFinger(p.proximal_length, p.distal_length, p.mount_angle)
 
 
 def take_values(control: PushControl, p: PushControllerParameters) -> None:
-    """Set the control's values that may change while it runs.
-
-    Parameters
-    ----------
-    control : PushControl
-        The control.
-    p : PushControllerParameters
-        The values.
-    """
+    """Set the control's values that may change while it runs."""
     law, limits = control.law, control.limits
     law.kp, law.kd, law.theta_desired = p.kp, p.kd, p.theta_desired
     limits.contact_timeout = p.contact_timeout

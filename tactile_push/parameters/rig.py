@@ -17,23 +17,7 @@ from tactile_push.tactile import PlanarFinger
 
 
 def rig_config(p: SimPlantParameters) -> RigConfig:
-    """Return the rig that the parameters describe.
-
-    Parameters
-    ----------
-    p : SimPlantParameters
-        Their values.
-
-    Returns
-    -------
-    RigConfig
-        The rig.
-
-    Raises
-    ------
-    ValueError
-        If there is no such rig.
-    """
+    """Return the rig that the parameters describe; ValueError if there is no such rig."""
     if p.object == 'block':
         outline = Outline.rectangle(p.edge_length, 2.0 * p.edge_to_cm)
         d = p.d_initial
@@ -52,23 +36,7 @@ def rig_config(p: SimPlantParameters) -> RigConfig:
 
 
 def faults(p: SimPlantParameters) -> Faults:
-    """Return the faults that the parameters describe.
-
-    Parameters
-    ----------
-    p : SimPlantParameters
-        Their values.
-
-    Returns
-    -------
-    Faults
-        The faults.
-
-    Raises
-    ------
-    ValueError
-        If the values do not fit together.
-    """
+    """Return the faults that the parameters describe; ValueError if they do not fit together."""
     return Faults(
         Servo(p.servo_time_constant, p.servo_delay, p.servo_velocity_quantum),
         Workspace(p.workspace_min, p.workspace_max),

@@ -12,17 +12,13 @@ from tactile_push.parameters.parameter import NodeParameters, parameter
 class SensorDriverParameters(NodeParameters):
     """Where the sensor is, and how long it may be silent."""
 
-    device: str = parameter(
-        shared.DEVICE,
-        '',
+    # fmt: off
+    device: str = parameter(shared.DEVICE, '',
         'where the sensor is: /dev/ttyUSB0, a pseudo terminal, socket://host:port, or any other '
-        'URL of pyserial',
-        read_only=True,
-    )
-    baud_rate: int = parameter(
-        115200, 'bit/s', 'speed of a serial line', 50, 4000000, read_only=True
-    )
-    silence_timeout: float = parameter(
-        0.3, 's', 'this long without a reading is an error, by the steady clock', 0.01, 60.0
-    )
+        'URL of pyserial', read_only=True)
+    baud_rate: int = parameter(115200, 'bit/s',
+        'speed of a serial line', 50, 4000000, read_only=True)
+    silence_timeout: float = parameter(0.3, 's',
+        'this long without a reading is an error, by the steady clock', 0.01, 60.0)
     autostart: bool = shared.autostart
+    # fmt: on

@@ -4,18 +4,17 @@
 
 import math
 
+from tactile_push import paper
 from tactile_push.parameters.parameter import parameter
 
-DEVICE = 'socket://127.0.0.1:54320'  # where `sim_plant` and `sensor_driver` meet by default
-FINGER_RADIUS = 0.0135
+DEVICE = 'socket://127.0.0.1:54320'  # where `sim_plant` and `sensor_driver` meet
 JOINT_NAMES = ['proximal_joint', 'distal_joint']
-MOUNT_ANGLE = math.pi / 2.0
-CONTROL_RATE = 10.0
+MOUNT_ANGLE = math.pi / 2.0  # straight ahead [rad]
 
 finger_radius = parameter(
-    FINGER_RADIUS, 'm', "effective radius of the finger's disk", 1e-4, 1.0, read_only=True
+    paper.FINGER_RADIUS, 'm', "effective radius of the finger's disk", 1e-4, 1.0, read_only=True
 )
-belt_speed = parameter(0.005, 'm/s', 'speed of the belt', 1e-5, 1.0, read_only=True)
+belt_speed = parameter(paper.BELT_SPEED, 'm/s', 'speed of the belt', 1e-5, 1.0, read_only=True)
 proximal_length = parameter(
     0.06, 'm', 'distance between the moving joints of the finger', 1e-3, 1.0, read_only=True
 )

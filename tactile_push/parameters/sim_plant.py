@@ -5,6 +5,7 @@
 import math
 from dataclasses import dataclass
 
+from tactile_push import paper
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
 
@@ -13,132 +14,76 @@ from tactile_push.parameters.parameter import NodeParameters, parameter
 class SimPlantParameters(NodeParameters):
     """The object and the start, the finger, the sensor and time; then faults, off by default."""
 
-    device: str = parameter(
-        shared.DEVICE,
-        '',
-        'where the sensor_driver will find the sensor: socket://host:port to listen on, or '
-        'an absolute path for a pseudo terminal',
-        read_only=True,
-    )
-    object: str = parameter(
-        'block', '', 'what is pushed', choices=('block', 'disk'), read_only=True
-    )
-    edge_length: float = parameter(0.05, 'm', 'pushed edge of the block', 1e-3, 1.0, read_only=True)
-    edge_to_cm: float = parameter(
-        0.02375,
-        'm',
+    # fmt: off
+    device: str = parameter(shared.DEVICE, '',
+        'where the sensor_driver will find the sensor: socket://host:port to listen on, or an '
+        'absolute path for a pseudo terminal', read_only=True)
+    object: str = parameter(paper.BLOCK, '',
+        'what is pushed', choices=(paper.BLOCK, paper.DISK), read_only=True)
+    edge_length: float = parameter(paper.BLOCK_EDGE, 'm',
+        'pushed edge of the block', 1e-3, 1.0, read_only=True)
+    edge_to_cm: float = parameter(paper.BLOCK_L, 'm',
         'distance l from the pushed edge of the block to its centre of mass, half its depth',
-        1e-3,
-        1.0,
-        read_only=True,
-    )
-    disk_radius: float = parameter(0.0285, 'm', 'radius of the disk', 1e-3, 1.0, read_only=True)
-    c: float = parameter(
-        0.0,
-        'm',
+        1e-3, 1.0, read_only=True)
+    disk_radius: float = parameter(paper.DISK_RADIUS, 'm',
+        'radius of the disk', 1e-3, 1.0, read_only=True)
+    c: float = parameter(0.0, 'm',
         'm_max / f_max of the support of the object; 0 for a uniform support',
-        0.0,
-        1.0,
-        read_only=True,
-    )
-    mu_c: float = parameter(
-        math.inf, '', 'friction between finger and object, .inf too', 0.0, read_only=True
-    )
-    theta_initial: float = parameter(
-        math.radians(20.0), 'rad', 'angle of the edge at the start', -1.5, 1.5, read_only=True
-    )
-    d_initial: float = parameter(
-        -0.006,
-        'm',
-        'contact along the edge of the block at the start',
-        -0.5,
-        0.5,
-        read_only=True,
-    )
+        0.0, 1.0, read_only=True)
+    mu_c: float = parameter(math.inf, '',
+        'friction between finger and object, .inf too', 0.0, read_only=True)
+    theta_initial: float = parameter(paper.THETA_INITIAL, 'rad',
+        'angle of the edge at the start', -1.5, 1.5, read_only=True)
+    d_initial: float = parameter(paper.D_INITIAL, 'm',
+        'contact along the edge of the block at the start', -0.5, 0.5, read_only=True)
     belt_speed: float = shared.belt_speed
     finger_radius: float = shared.finger_radius
     proximal_length: float = shared.proximal_length
     distal_length: float = shared.distal_length
     mount_angle: float = shared.mount_angle
     sensor_rate: float = parameter(50.0, 'Hz', 'readings a second', 1.0, 1000.0, read_only=True)
-    command_timeout: float = parameter(
-        0.5,
-        's',
-        'the finger stops after this long without a command',
-        0.01,
-        10.0,
-        read_only=True,
-    )
-    publish_clock: bool = parameter(
-        False,
-        '',
-        'own the time: publish /clock and let it wait for contacts and commands',
-        read_only=True,
-    )
-    real_time_factor: float = parameter(
-        1.0,
-        's/s',
+    command_timeout: float = parameter(0.5, 's',
+        'the finger stops after this long without a command', 0.01, 10.0, read_only=True)
+    publish_clock: bool = parameter(False, '',
+        'own the time: publish /clock and let it wait for contacts and commands', read_only=True)
+    real_time_factor: float = parameter(1.0, 's/s',
         'how fast the time passes at the most; other than 1 only with publish_clock',
-        0.01,
-        100.0,
-        read_only=True,
-    )
-    control_rate: float = parameter(
-        shared.CONTROL_RATE,
-        'Hz',
-        'commands a second that the published time waits for',
-        0.1,
-        200.0,
-        read_only=True,
-    )
-    max_speed: float = parameter(
-        0.1, 'm/s', 'the finger goes no faster, whatever the command', 1e-4, 10.0
-    )
-    servo_time_constant: float = parameter(
-        0.0, 's', 'of the first-order lag with which the finger follows its command', 0.0, 10.0
-    )
-    servo_delay: float = parameter(
-        0.0, 's', 'time between a command and its first effect', 0.0, 10.0
-    )
-    servo_velocity_quantum: float = parameter(
-        0.0, 'm/s', 'velocities are whole multiples of it', 0.0, 1.0
-    )
+        0.01, 100.0, read_only=True)
+    control_rate: float = parameter(paper.CONTROL_RATE, 'Hz',
+        'commands a second that the published time waits for', 0.1, 200.0, read_only=True)
+    max_speed: float = parameter(0.1, 'm/s',
+        'the finger goes no faster, whatever the command', 1e-4, 10.0)
+    servo_time_constant: float = parameter(0.0, 's',
+        'of the first-order lag with which the finger follows its command', 0.0, 10.0)
+    servo_delay: float = parameter(0.0, 's',
+        'time between a command and its first effect', 0.0, 10.0)
+    servo_velocity_quantum: float = parameter(0.0, 'm/s',
+        'velocities are whole multiples of it', 0.0, 1.0)
     workspace_min: float = parameter(-math.inf, 'm', 'the finger stops there, x in finger_base')
     workspace_max: float = parameter(math.inf, 'm', 'the finger stops there, x in finger_base')
-    belt_ripple: float = parameter(
-        0.0, '', "amplitude of the belt's uneven speed, relative to the speed", 0.0, 0.99
-    )
+    belt_ripple: float = parameter(0.0, '',
+        "amplitude of the belt's uneven speed, relative to the speed", 0.0, 0.99)
     belt_ripple_frequency: float = parameter(1.0, 'Hz', 'frequency of belt_ripple', 0.01, 100.0)
     belt_stopped: bool = parameter(False, '', 'the belt stands')
-    mu_c_ripple: float = parameter(
-        0.0, '', 'amplitude of an uneven mu_c, relative to mu_c', 0.0, 0.99
-    )
-    mu_c_ripple_length: float = parameter(
-        0.005, 'm', 'wavelength of mu_c_ripple along the edge', 1e-3, 1.0
-    )
-    sensor_noise: float = parameter(
-        0.0, 'rad', "standard deviation of the noise of the contact's angle", 0.0, 1.6
-    )
+    mu_c_ripple: float = parameter(0.0, '',
+        'amplitude of an uneven mu_c, relative to mu_c', 0.0, 0.99)
+    mu_c_ripple_length: float = parameter(0.005, 'm',
+        'wavelength of mu_c_ripple along the edge', 1e-3, 1.0)
+    sensor_noise: float = parameter(0.0, 'rad',
+        "standard deviation of the noise of the contact's angle", 0.0, 1.6)
     sensor_bias: float = parameter(0.0, 'rad', "constant error of the contact's angle", -1.6, 1.6)
     sensor_quantum: float = parameter(0.0, 'rad', 'the angle is a whole multiple of it', 0.0, 1.6)
-    sensor_latency: float = parameter(
-        0.0, 's', 'readings come out so much later, with the first reading after it', 0.0, 10.0
-    )
+    sensor_latency: float = parameter(0.0, 's',
+        'readings come out so much later, with the first reading after it', 0.0, 10.0)
     sensor_dropout: float = parameter(0.0, '', 'probability that a reading is lost', 0.0, 1.0)
-    sensor_outlier: float = parameter(
-        0.0, '', 'probability that a reading is anywhere on the hemisphere', 0.0, 1.0
-    )
+    sensor_outlier: float = parameter(0.0, '',
+        'probability that a reading is anywhere on the hemisphere', 0.0, 1.0)
     sensor_stuck: bool = parameter(False, '', 'the sensor sends its last value for ever')
-    sensor_detectable_range: float = parameter(
-        math.pi / 2.0,
-        'rad',
-        'largest angle from the pole at which the sensor feels a contact',
-        0.0,
-        math.pi / 2.0,
-    )
-    seed: int = parameter(
-        0, '', "seed of the sensor's random errors", 0, 2147483647, read_only=True
-    )
+    sensor_detectable_range: float = parameter(math.pi / 2.0, 'rad',
+        'largest angle from the pole at which the sensor feels a contact', 0.0, math.pi / 2.0)
+    seed: int = parameter(0, '',
+        "seed of the sensor's random errors", 0, 2147483647, read_only=True)
+    # fmt: on
 
 
 FAULTS = tuple(
@@ -150,18 +95,7 @@ NO_FAULTS_OF_THEIR_OWN = {'belt_ripple_frequency', 'mu_c_ripple_length'}
 
 
 def faults_on(p: SimPlantParameters) -> list[str]:
-    """Name the faults that are on.
-
-    Parameters
-    ----------
-    p : SimPlantParameters
-        Values of the parameters.
-
-    Returns
-    -------
-    list of str
-        The parameters that switch them on.
-    """
+    """Return the names of the parameters that switch a fault on."""
     return [
         fault.name
         for fault in FAULTS

@@ -9,7 +9,8 @@ from typing import Any, NamedTuple
 from tactile_push.bags import Message
 from tactile_push.control import Tick
 from tactile_push.estimation import sensing_values, tells_pose
-from tactile_push.parameters.active_sensing import ActiveSensingParameters, make_sensing
+from tactile_push.parameters.active_sensing import ActiveSensingParameters
+from tactile_push.parameters.estimator import make_sensing
 from tactile_push.pipeline.cdr import encode_joint_state, encode_unsure_pose
 from tactile_push.pipeline.orientation import covariance_in_space, quaternion_of_yaw
 from tactile_push.pipeline.stamps import seconds_since, stamp_before

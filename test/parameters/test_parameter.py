@@ -6,7 +6,8 @@ import math
 import pytest
 
 from tactile_push.interface import NODES
-from tactile_push.parameters import PARAMETERS, NodeParameters, Parameter, config_file, parameter
+from tactile_push.parameters import PARAMETERS, NodeParameters, Parameter, config_file
+from tactile_push.parameters.parameter import parameter
 
 
 @dataclasses.dataclass(frozen=True)

@@ -20,7 +20,8 @@ from tactile_push.nodes.ros.parameters import (  # noqa: E402
     declare,
     descriptor,
 )
-from tactile_push.parameters import PARAMETERS, NodeParameters, parameter  # noqa: E402
+from tactile_push.parameters import PARAMETERS, NodeParameters  # noqa: E402
+from tactile_push.parameters.parameter import parameter  # noqa: E402
 from tactile_push.testing.processes import claim_domain  # noqa: E402
 
 
