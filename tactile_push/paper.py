@@ -7,6 +7,7 @@ feedback", IROS 1992.
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 Range = tuple[float, float]
@@ -20,8 +21,15 @@ PHI_MIN, PHI_MAX = math.radians(33.0), math.radians(147.0)  # bounds of the law 
 
 # The objects, named as the parameter `object` of `sim_plant` names them.
 BLOCK, DISK = 'block', 'disk'
+OTHER = 'other'  # an object that is known not to be one of them
 BLOCK_EDGE, BLOCK_DEPTH = 0.05, 0.0475  # the pushed edge and the side that stands on it [m]
 BLOCK_L = BLOCK_DEPTH / 2.0  # from the pushed edge to the centre of mass [m]
+BLOCK_CORNERS = (
+    (-BLOCK_EDGE / 2.0, -BLOCK_L),
+    (BLOCK_EDGE / 2.0, -BLOCK_L),
+    (BLOCK_EDGE / 2.0, BLOCK_L),
+    (-BLOCK_EDGE / 2.0, BLOCK_L),
+)  # from the centre of mass, counterclockwise from the pushed edge [m]
 DISK_RADIUS = 0.0285  # also from the tangent to the centre of mass [m]
 C_MAX, C_UNIFORM, C_MIN = 0.0345, 0.0187, 0.0067  # c of the block's supports, as printed [m]
 
@@ -97,7 +105,7 @@ def paper_figures(theta_desired: float, pushed: str | None) -> PaperFigures | No
     theta_desired : float
         Desired angle [rad].
     pushed : str or None
-        What is pushed, if it is known: the parameter `object` of `sim_plant`.
+        `BLOCK`, `DISK` or `OTHER`; None if it is not known what is pushed.
 
     Returns
     -------
@@ -109,3 +117,24 @@ def paper_figures(theta_desired: float, pushed: str | None) -> PaperFigures | No
         if near and pushed in (None, paper.object):
             return paper
     return None
+
+
+def object_with(corners: Iterable[tuple[float, float]], disk_radius: float) -> str:
+    """Return which object has an outline.
+
+    Parameters
+    ----------
+    corners : iterable of tuple of float
+        Corners of a polygon from its centre of mass [m].
+    disk_radius : float
+        Radius of a round object, which has no corners [m]; 0 for a polygon.
+
+    Returns
+    -------
+    str
+        `BLOCK`, `DISK` or `OTHER`.
+    """
+    if disk_radius > 0.0:
+        return DISK if math.isclose(disk_radius, DISK_RADIUS) else OTHER
+    same = sorted(corners) == sorted(BLOCK_CORNERS)
+    return BLOCK if same else OTHER

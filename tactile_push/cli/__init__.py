@@ -8,10 +8,9 @@ import signal
 import sys
 from collections.abc import Sequence
 from types import FrameType
-from typing import TYPE_CHECKING, NoReturn
+from typing import NoReturn
 
-if TYPE_CHECKING:
-    from tactile_push.cli.arguments import Commands, Parser
+from tactile_push.cli.arguments import Commands, Parser, Refused
 
 # Exit statuses as shells give them to programs that SIGINT and SIGPIPE end.
 INTERRUPTED, READ_ENOUGH = 130, 141
@@ -58,6 +57,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if isinstance(error, BrokenPipeError):
             _say_no_more()
             return READ_ENOUGH
+        if isinstance(error, Refused):
+            if str(error):
+                print(f'{command}: {error}', file=sys.stderr)
+            return error.status
         if not isinstance(error, OSError):
             raise
         if error.filename is None:
@@ -72,13 +75,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _parse(arguments: Sequence[str] | None) -> tuple[str, argparse.Namespace]:
     parser, commands = command_parser()
     options, unknown = parser.parse_known_args(arguments)
-    name = vars(options).pop('command')  # which is no option
+    name = vars(options).pop('command')  # argparse counts it among the options
     if unknown:
         commands.choices[name].error(f'unrecognized arguments: {" ".join(unknown)}')
     return name, options
 
 
-def command_parser() -> 'tuple[Parser, Commands]':
+def command_parser() -> tuple[Parser, Commands]:
     """Return the parser of the command line and its subcommands, for help and documentation."""
     # Imported here, so that an interrupt is silent from the beginning.
     from tactile_push.cli import (
@@ -93,7 +96,6 @@ def command_parser() -> 'tuple[Parser, Commands]':
         report,
         simulate,
     )
-    from tactile_push.cli.arguments import Parser
 
     parser = Parser(
         prog='tactile_push',
@@ -117,7 +119,7 @@ def command_parser() -> 'tuple[Parser, Commands]':
 
 
 def _say_no_more() -> None:
-    """Let nothing of what is left be written at exit."""
+    """Drop what would still be written at exit."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 

@@ -4,25 +4,18 @@
 
 import argparse
 import json
-import math
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tactile_push.cli.arguments import Commands
+from tactile_push.cli.arguments import Commands, Refused
+from tactile_push.paper import DISK
 
 if TYPE_CHECKING:
     from tactile_push.demo import RigResult
 
 
 def add(commands: Commands) -> None:
-    """Add the command.
-
-    Parameters
-    ----------
-    commands : argparse subparsers
-        Where it belongs.
-    """
+    """Add the command."""
     demo = commands.add_parser(
         'demo',
         help='turn the block and the disk of the paper with real nodes on a simulated rig',
@@ -55,7 +48,7 @@ def _demo(options: argparse.Namespace) -> int:
         TimeElapsedColumn(),
         console=Console(stderr=True),
     )
-    tasks = {case.name: bar.add_task(case.name, total=demo.STEPS) for case in demo.CASES}
+    tasks = {name: bar.add_task(name, total=demo.STEPS) for name in demo.RIGS}
     try:
         with bar:
             results = demo.run_demo(
@@ -63,70 +56,29 @@ def _demo(options: argparse.Namespace) -> int:
                 lambda name, steps: bar.update(tasks[name], completed=min(steps, demo.STEPS)),
             )
     except demo.DemoError as error:
-        print(f'tactile_push demo: {error}', file=sys.stderr)
-        return 1
+        raise Refused(error, status=1) from None
     except OSError as error:
-        where = error.filename or options.out
-        print(f'tactile_push demo: {where}: {error.strerror}', file=sys.stderr)
-        return 2
+        raise Refused(f'{error.filename or options.out}: {error.strerror}') from None
     if options.json:
-        print(json.dumps(demo.as_json(results), indent=2))
+        rigs = {name: result.as_json() for name, result in results.items()}
+        print(json.dumps({'rigs': rigs}, indent=2))
     else:
-        _print_demo(results, options.out)
-    return 0 if all(result.settle_step is not None for result in results.values()) else 1
+        _print(results, options.out)
+    settled = all(result.push.settle_step is not None for result in results.values())
+    return 0 if settled else 1
 
 
-def _print_demo(results: 'dict[str, RigResult]', out: Path) -> None:
-    from rich.markup import escape
-    from rich.table import Table
+def _print(results: 'dict[str, RigResult]', out: Path) -> None:
+    from tactile_push.cli.output import wide_console
+    from tactile_push.report.outcome import Row, fixed, outcome_table, push_rows, step_words
 
-    from tactile_push.cli.bags import wide_console
-    from tactile_push.demo import CASES, TRANSLATING
-
-    table = Table()
-    table.add_column('')
-    for case in CASES:
-        table.add_column(case.name, justify='right')
-        table.add_column('paper', justify='right', style='dim')
-
-    def degrees(bounds: tuple[float, float]) -> str:
-        return f'{math.degrees(bounds[0]):.1f} to {math.degrees(bounds[1]):.1f}'
-
-    def step(found: int | None) -> str:
-        return 'never' if found is None else str(found)
-
-    def row(label: str, key: str, values: list[str]) -> None:
-        papers = [case.paper.get(key, '') for case in CASES]
-        table.add_row(
-            escape(label), *[cell for pair in zip(values, papers, strict=True) for cell in pair]
-        )
-
-    runs = [results[case.name] for case in CASES]
-    bands = ', '.join(f'{math.degrees(case.band):.0f}°' for case in CASES)
-    row(
-        f'within {bands} of θ_d from step',
-        'settled',
-        [step(run.settle_step) for run in runs],
-    )
-    row(f'θ from step {TRANSLATING} on [°]', 'theta', [degrees(run.theta_range) for run in runs])
-    row(f'φ from step {TRANSLATING} on [°]', 'phi', [degrees(run.phi_range) for run in runs])
-    row(
-        'so d by (17) [mm]',
-        'd',
-        [f'{1e3 * run.d_lower:.2f} to {1e3 * run.d_upper:.2f}' for run in runs],
-    )
-    row(
-        'd known to 2 mm from step',
-        'known',
-        [
-            # Of the disk d is 0 by its roundness.
-            step(run.known_step) if 'known' in case.paper else ''
-            for case, run in zip(CASES, runs, strict=True)
-        ],
-    )
-    row('true d at the end [mm]', '', [f'{1e3 * run.d_final:.2f}' for run in runs])
-    row('control ticks lost', '', [str(run.ticks_lost) for run in runs])
-    row('wall time [s]', '', [f'{run.wall_seconds:.1f}' for run in runs])
+    runs = {}
+    for name, result in results.items():
+        known = None if name == DISK else step_words(result.known_step)  # a disk's d is 0
+        rows = push_rows(result.push, known)
+        rows.append(Row('true d at the end [mm]', fixed(1e3 * result.d_final, 2)))
+        rows.append(Row('wall time [s]', f'{result.wall_seconds:.1f}'))
+        runs[name] = rows, result.push.paper
     console = wide_console()
-    console.print(table)
+    console.print(outcome_table(runs))
     console.print(f'{out}/history.png, {out}/block/, {out}/disk/')

@@ -5,12 +5,11 @@
 import argparse
 import json
 import math
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tactile_push.cli.arguments import Commands
+from tactile_push.cli.arguments import Commands, tolerance, topic
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -19,13 +18,7 @@ if TYPE_CHECKING:
 
 
 def add(commands: Commands) -> None:
-    """Add the command.
-
-    Parameters
-    ----------
-    commands : argparse subparsers
-        Where it belongs.
-    """
+    """Add the command."""
     diff = commands.add_parser(
         'diff',
         help='compare two bags, message by message',
@@ -38,7 +31,7 @@ def add(commands: Commands) -> None:
     option('b', type=Path, metavar='BAG_B', help='the bag to compare with it')
     option(
         '--tolerance',
-        type=_tolerance,
+        type=tolerance,
         action='append',
         default=[],
         metavar='X|TOPIC:FIELD=X',
@@ -48,7 +41,7 @@ def add(commands: Commands) -> None:
     )
     option(
         '--topics',
-        type=_topic,
+        type=topic,
         nargs='+',
         action='extend',
         metavar='TOPIC',
@@ -56,7 +49,7 @@ def add(commands: Commands) -> None:
     )
     option(
         '--ignore',
-        type=_topic,
+        type=topic,
         nargs='+',
         action='extend',
         default=[],
@@ -68,47 +61,22 @@ def add(commands: Commands) -> None:
     diff.set_defaults(run=_diff)
 
 
-def _topic(text: str) -> str:
-    return text if text.startswith('/') else f'/{text}'
-
-
-def _tolerance(text: str) -> tuple[tuple[str, str] | None, float]:
-    """Read a tolerance: the topic and field that it is for, if any, and its value."""
-    place, equals, value = text.rpartition('=')
-    topic, _, field = place.partition(':')
-    try:
-        tolerance = float(value)
-    except ValueError:
-        tolerance = math.nan
-    if not tolerance >= 0.0 or (equals and not (topic and field)):
-        raise argparse.ArgumentTypeError(
-            f'expected a number of 0 or more, or TOPIC:FIELD=NUMBER, got {text}'
-        )
-    return ((_topic(topic), field) if equals else None), tolerance
-
-
 def _diff(options: argparse.Namespace) -> int:
-    from tactile_push.bags import BagError, BagReader
-    from tactile_push.cli.bags import reading, warner
+    from tactile_push.cli.output import opened, reading, warner
     from tactile_push.comparing.diff import diff
     from tactile_push.comparing.differences import Tolerances
 
     warn = warner('diff')
     general = [value for place, value in options.tolerance if place is None]
     special = {place: value for place, value in options.tolerance if place is not None}
-    try:
-        with (
-            BagReader(options.a, warn) as a,
-            BagReader(options.b, warn) as b,
-            reading(
-                sum(
-                    count
-                    for bag in (a, b)
-                    for topic, count in bag.counts.items()
-                    if topic in (options.topics or bag.counts) and topic not in options.ignore
-                )
-            ) as progress,
-        ):
+    with opened(options.a, warn) as a, opened(options.b, warn) as b:
+        messages = sum(
+            count
+            for bag in (a, b)
+            for topic, count in bag.counts.items()
+            if topic in (options.topics or bag.counts) and topic not in options.ignore
+        )
+        with reading(messages) as progress:
             results = diff(
                 a,
                 b,
@@ -118,9 +86,6 @@ def _diff(options: argparse.Namespace) -> int:
                 times=options.times,
                 progress=progress,
             )
-    except BagError as error:
-        print(f'tactile_push diff: {error}', file=sys.stderr)
-        return 2
     if options.json:
         print(json.dumps(_as_json(options, results), indent=2))
     else:
@@ -129,7 +94,7 @@ def _diff(options: argparse.Namespace) -> int:
 
 
 def _as_json(options: argparse.Namespace, results: 'Sequence[TopicDiff]') -> dict[str, Any]:
-    from tactile_push.cli.bags import plain
+    from tactile_push.cli.output import plain
 
     return {
         'a': str(options.a),
@@ -182,7 +147,7 @@ def _print(options: argparse.Namespace, results: 'Sequence[TopicDiff]') -> None:
     from rich.markup import escape
     from rich.table import Table
 
-    from tactile_push.cli.bags import wide_console
+    from tactile_push.cli.output import wide_console
 
     console = wide_console()
     console.print(

@@ -4,27 +4,20 @@
 
 import argparse
 import math
-import sys
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tactile_push.cli.arguments import Commands, number
+from tactile_push.cli.arguments import Commands, edge, number
+from tactile_push.interface import ACTIVE_SENSING, node_in
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from tactile_push.replay import ObjectFigures
+    from tactile_push.report.outcome import Row
 
 
 def add(commands: Commands) -> None:
-    """Add the command.
-
-    Parameters
-    ----------
-    commands : argparse subparsers
-        Where it belongs.
-    """
+    """Add the command."""
     estimate = commands.add_parser(
         'estimate',
         help='say what the pushes in a bag tell about the object',
@@ -44,7 +37,7 @@ def add(commands: Commands) -> None:
     )
     option(
         '--edge',
-        type=_edge,
+        type=edge,
         metavar='N',
         help='the pushed edge, 0 from the first corner to the second; -1 if it is not known '
         '(default: as recorded)',
@@ -71,20 +64,8 @@ def add(commands: Commands) -> None:
     estimate.set_defaults(run=_estimate)
 
 
-def _edge(text: str) -> int:
-    """Read the number of an edge."""
-    try:
-        edge = int(text)
-    except ValueError:
-        edge = -2
-    if edge < -1:
-        raise argparse.ArgumentTypeError(f'expected a whole number from -1 on, got {text}')
-    return edge
-
-
 def _estimate(options: argparse.Namespace) -> int:
-    from tactile_push.bags import BagError, BagReader
-    from tactile_push.cli.bags import reading, warner, write_json
+    from tactile_push.cli.output import opened, reading, warner, write_json
     from tactile_push.replay import estimate
 
     warn = warner('estimate')
@@ -93,19 +74,12 @@ def _estimate(options: argparse.Namespace) -> int:
         sensing['edge'] = options.edge
     if options.noise_deg is not None:
         sensing['noise'] = math.radians(options.noise_deg)
-    try:
-        with (
-            BagReader(options.bag, warn) as bag,
-            reading(sum(bag.counts.values())) as progress,
-        ):
-            results = estimate(
-                bag, config=options.config, sensing=sensing, out=options.out, progress=progress
-            )
-        if options.json is not None:
-            write_json(options.json, {'fingers': [_as_json(result) for result in results]})
-    except (BagError, ValueError) as error:
-        print(f'tactile_push estimate: {error}', file=sys.stderr)
-        return 2
+    with opened(options.bag, warn) as bag, reading(sum(bag.counts.values())) as progress:
+        results = estimate(
+            bag, config=options.config, sensing=sensing, out=options.out, progress=progress
+        )
+    if options.json is not None:
+        write_json(options.json, {'fingers': [_as_json(result) for result in results]})
     for result in results:
         if not result.object_told:
             warn(f"{_node(result)} was not recorded: taken for the paper's block")
@@ -115,64 +89,58 @@ def _estimate(options: argparse.Namespace) -> int:
 
 
 def _node(result: 'ObjectFigures') -> str:
-    return f'/{result.finger}/active_sensing' if result.finger else '/active_sensing'
+    return f'/{node_in(result.finger, ACTIVE_SENSING)}'
 
 
 def _as_json(result: 'ObjectFigures') -> dict[str, Any]:
-    from tactile_push.cli.bags import plain
+    from tactile_push.cli.output import plain
 
     return plain({**asdict(result), 'ticks': [tick.as_json() for tick in result.ticks]})
 
 
 def _print(results: 'list[ObjectFigures]') -> None:
-    from tactile_push.cli.bags import wide_console
+    from tactile_push.cli.output import wide_console
+    from tactile_push.report.outcome import outcome_table
 
     console = wide_console()
     for result in results:
-        _print_object(console, result)
+        runs = {'this bag': (_rows(result), result.paper)}
+        console.print(outcome_table(runs, title=_node(result)))
+        for one in result.contradictions:
+            end = '' if one.ended else ', to the end of the bag'
+            console.print(
+                f'contradiction at {one.at:.3f} s for {one.duration:.3f} s{end}: {one.reason}',
+                highlight=False,
+            )
+        for reason in dict.fromkeys(one.reason for one in result.forgotten):
+            times = [one.at for one in result.forgotten if one.reason == reason]
+            often = '' if len(times) == 1 else f', {len(times)} times up to {times[-1]:.3f} s'
+            console.print(f'all forgotten at {times[0]:.3f} s{often}: {reason}', highlight=False)
 
 
-def _print_object(console: 'Console', result: 'ObjectFigures') -> None:
-    from rich.markup import escape
-    from rich.table import Table
+def _rows(result: 'ObjectFigures') -> 'list[Row]':
+    from tactile_push.cli.output import bounded
+    from tactile_push.report.outcome import Row, known_row, step_words
 
-    from tactile_push.cli.bags import bounded
-    from tactile_push.report.merit import TRANSLATING
-
-    table = Table(title=escape(_node(result)), title_justify='left')
-    table.add_column('')
-    table.add_column('this bag', justify='right')
-    table.add_column('paper', justify='right', style='dim')
-
-    def row(label: str, value: str, of_paper: str = '') -> None:
-        table.add_row(escape(label), value, of_paper)
-
-    row('control periods', str(len(result.ticks)))
-    row('readings', str(result.readings))
+    rows = [
+        Row('control periods', str(len(result.ticks))),
+        Row('readings', str(result.readings)),
+    ]
     values = result.values
     if values is None:
-        row('d', 'never known')
+        rows.append(Row('d', 'never known'))
     else:
-        row('known last at [s]', f'{result.at:.3f}')
-        row('d [mm]', bounded(values, 'd', 1e3, 2))
-        row('c [mm]', bounded(values, 'c', 1e3, 1))
-        row('μ_c', bounded(values, 'mu_c', 1.0, 2))
-    if values is not None and math.isfinite(values['edge']):  # of no disk, the d of which is 0
-        row('edge', f'{values["edge"]:.0f} ({values["edge_weight"]:.0%})')
-        step = 'never' if result.known_step is None else str(result.known_step)
-        row('d known to 2 mm from step', step, str(TRANSLATING))
+        rows.append(Row('known last at [s]', f'{result.at:.3f}'))
+        rows.append(Row('d [mm]', bounded(values, 'd', 1e3, 2)))
+        rows.append(Row('c [mm]', bounded(values, 'c', 1e3, 1)))
+        rows.append(Row('μ_c', bounded(values, 'mu_c', 1.0, 2)))
+        if math.isfinite(values['edge']):  # a disk has none, and its d is 0
+            rows.append(Row('edge', f'{values["edge"]:.0f} ({values["edge_weight"]:.0%})'))
+            rows.append(known_row(step_words(result.known_step), result.paper))
     if result.inside is not None and result.inside_guaranteed is not None:
-        row('control periods with a true d', str(result.compared))
-        row('of them inside the 95 % interval', f'{result.inside:.1%}')
-        row('of them within the guaranteed bounds', f'{result.inside_guaranteed:.1%}')
-    console.print(table)
-    for one in result.contradictions:
-        end = '' if one.ended else ', to the end of the bag'
-        console.print(
-            f'contradiction at {one.at:.3f} s for {one.duration:.3f} s{end}: {one.reason}',
-            highlight=False,
-        )
-    for reason in dict.fromkeys(one.reason for one in result.forgotten):
-        times = [one.at for one in result.forgotten if one.reason == reason]
-        often = '' if len(times) == 1 else f', {len(times)} times up to {times[-1]:.3f} s'
-        console.print(f'all forgotten at {times[0]:.3f} s{often}: {reason}', highlight=False)
+        rows += [
+            Row('control periods with a true d', str(result.compared)),
+            Row('of them inside the 95 % interval', f'{result.inside:.1%}'),
+            Row('of them within the guaranteed bounds', f'{result.inside_guaranteed:.1%}'),
+        ]
+    return rows

@@ -11,13 +11,7 @@ from tactile_push.cli.arguments import Commands
 
 
 def add(commands: Commands) -> None:
-    """Add the command.
-
-    Parameters
-    ----------
-    commands : argparse subparsers
-        Where it belongs.
-    """
+    """Add the command."""
     figures = commands.add_parser(
         'figures',
         help='make figures 2, 3, 6, 7 and 8 of the paper and a map of the gains',

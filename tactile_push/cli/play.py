@@ -12,13 +12,7 @@ CLOCK_RATE = 100.0  # unless another one is asked for [Hz]
 
 
 def add(commands: Commands) -> None:
-    """Add the command.
-
-    Parameters
-    ----------
-    commands : argparse subparsers
-        Where it belongs.
-    """
+    """Add the command."""
     play = commands.add_parser(
         'play',
         help='publish a bag with its timing',

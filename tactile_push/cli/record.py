@@ -12,13 +12,7 @@ from tactile_push.cli.become import become
 
 
 def add(commands: Commands) -> None:
-    """Add the command.
-
-    Parameters
-    ----------
-    commands : argparse subparsers
-        Where it belongs.
-    """
+    """Add the command."""
     record = commands.add_parser(
         'record',
         help='record topics of the running nodes into a bag',

@@ -16,13 +16,7 @@ GAINS = ('kp', 'kd')
 
 
 def add(commands: Commands) -> None:
-    """Add the command.
-
-    Parameters
-    ----------
-    commands : argparse subparsers
-        Where it belongs.
-    """
+    """Add the command."""
     replay = commands.add_parser(
         'replay',
         help="run a bag's readings through geometry, control law and active sensing again",
@@ -64,29 +58,17 @@ def add(commands: Commands) -> None:
 
 
 def _replay(options: argparse.Namespace) -> int:
-    from tactile_push.bags import BagError, BagReader
-    from tactile_push.cli.bags import reading, warner, write_json
+    from tactile_push.cli.output import opened, reading, warner, write_json
     from tactile_push.replay import replay
 
     warn = warner('replay')
     gains = {name: getattr(options, name) for name in GAINS if getattr(options, name) is not None}
-    try:
-        with (
-            BagReader(options.bag, warn) as bag,
-            reading(sum(bag.counts.values())) as progress,
-        ):
-            comparisons = replay(
-                bag,
-                config=options.config,
-                controller=gains,
-                out=options.out,
-                progress=progress,
-            )
-        if options.json is not None:
-            write_json(options.json, {'fingers': [one.as_json() for one in comparisons]})
-    except (BagError, ValueError) as error:
-        print(f'tactile_push replay: {error}', file=sys.stderr)
-        return 2
+    with opened(options.bag, warn) as bag, reading(sum(bag.counts.values())) as progress:
+        comparisons = replay(
+            bag, config=options.config, controller=gains, out=options.out, progress=progress
+        )
+    if options.json is not None:
+        write_json(options.json, {'fingers': [one.as_json() for one in comparisons]})
     if options.json != '-':
         _print(comparisons)
     for comparison in comparisons:
@@ -122,7 +104,7 @@ def _why_not(comparison: 'Comparison') -> str:
 def _print(comparisons: 'list[Comparison]') -> None:
     from rich.table import Table
 
-    from tactile_push.cli.bags import bounded, wide_console
+    from tactile_push.cli.output import bounded, wide_console
 
     console = wide_console()
     for comparison in comparisons:

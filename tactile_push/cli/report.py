@@ -5,23 +5,16 @@
 import argparse
 import json
 import re
-import sys
 from dataclasses import replace
 from pathlib import Path
 
-from tactile_push.cli.arguments import Commands
+from tactile_push.cli.arguments import Commands, page
 
 ENDINGS = r'(\.mcap)?(\.zstd)?$'  # of a bag's file
 
 
 def add(commands: Commands) -> None:
-    """Add the command.
-
-    Parameters
-    ----------
-    commands : argparse subparsers
-        Where it belongs.
-    """
+    """Add the command."""
     report = commands.add_parser(
         'report',
         help='make a page of plots and a view from above of what a bag has recorded',
@@ -35,7 +28,7 @@ def add(commands: Commands) -> None:
     report.add_argument(
         '-o',
         '--out',
-        type=_page,
+        type=page,
         metavar='FILE',
         help='page to write; replaced if it is there (default: name of the bag with .html, here)',
     )
@@ -43,26 +36,14 @@ def add(commands: Commands) -> None:
     report.set_defaults(run=_report)
 
 
-def _page(text: str) -> Path:
-    """Read the name of a page, which no bag can have."""
-    if Path(text).suffix.lower() not in ('.html', '.htm'):
-        raise argparse.ArgumentTypeError(f'expected a file *.html, got {text}')
-    return Path(text)
-
-
 def _report(options: argparse.Namespace) -> int:
-    from tactile_push.bags import BagError, BagReader
     from tactile_push.bags.disk import write_whole
-    from tactile_push.cli.bags import reading, warner
+    from tactile_push.cli.output import opened, reading, warner
     from tactile_push.report import messages_shown, read_run, report_html
 
     warnings: list[str] = []
-    try:
-        with BagReader(options.bag, warnings.append) as bag, reading(messages_shown(bag)) as told:
-            run = read_run(bag, told)
-    except BagError as error:
-        print(f'tactile_push report: {error}', file=sys.stderr)
-        return 2
+    with opened(options.bag, warnings.append) as bag, reading(messages_shown(bag)) as progress:
+        run = read_run(bag, progress)
     run = replace(run, warnings=[*warnings, *run.warnings])
     for line in run.warnings:
         warner('report')(line)

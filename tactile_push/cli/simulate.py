@@ -12,13 +12,7 @@ from tactile_push.cli.arguments import Commands, number, picture, steps
 
 
 def add(commands: Commands) -> None:
-    """Add the command.
-
-    Parameters
-    ----------
-    commands : argparse subparsers
-        Where it belongs.
-    """
+    """Add the command."""
     simulate = commands.add_parser(
         'simulate',
         help='simulate one object under the control law or open loop',

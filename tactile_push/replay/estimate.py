@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the control periods in a bag tell about the objects that were pushed."""
 
+import math
 import os
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
@@ -10,6 +11,7 @@ from typing import Any
 
 from tactile_push.bags import BagError, BagReader
 from tactile_push.control import tick_of
+from tactile_push.paper import BLOCK_CORNERS, object_with
 from tactile_push.pipeline.stamps import epoch_of
 from tactile_push.replay.new_bag import copy, new_bag
 from tactile_push.replay.object_history import ObjectFigures, ObjectHistory
@@ -77,7 +79,10 @@ def estimate(
         sensors[namespace] = Sensing(values, epoch)
         known = {*given['active_sensing'], *wanted['active_sensing']}
         told = bool(known & {'vertices', 'disk_radius'})
-        histories[namespace] = ObjectHistory(namespace.strip('/'), bag.start_time, told)
+        numbers = values.get('vertices', [x for corner in BLOCK_CORNERS for x in corner])
+        corners = zip(numbers[::2], numbers[1::2], strict=True)
+        pushed = object_with(corners, values.get('disk_radius', 0.0))
+        histories[namespace] = ObjectHistory(namespace.strip('/'), bag.start_time, told, pushed)
     inputs = {f'{n}{topic}': (n, topic) for n in namespaces for topic in (TICKS, TRUTH)}
     made = {f'{n}{topic}': kind for n in namespaces for topic, kind in TOPICS.items()}
     with ExitStack() as stack:
@@ -101,7 +106,8 @@ def estimate(
             except ValueError as error:
                 raise BagError(f'{bag.path}: {message.topic}: {error}') from None
             sensed = sensors[namespace].tick(stamp, tick)
-            histories[namespace].add(stamp, tick.state, sensed)
+            desired = values.get('theta_desired', math.nan)
+            histories[namespace].add(stamp, tick.state, desired, sensed)
             for topic, data in ((STATE, sensed.state), (POSE, sensed.pose)):
                 if writer is not None and data is not None:
                     at = message.log_time

@@ -11,10 +11,11 @@ import numpy as np
 
 from tactile_push.control import PUSHING
 from tactile_push.estimation import CONTRADICTIONS
+from tactile_push.paper import PaperFigures, paper_figures
 from tactile_push.replay.comparison import SensedTick
 from tactile_push.replay.geometry import Stamp
 from tactile_push.replay.sensing import Sensed
-from tactile_push.report.known import known_step
+from tactile_push.report.merit import known_step
 
 BOUNDS = ('d_lower', 'd_upper', 'd_least', 'd_most')
 ROUNDING = 1e-9  # of a length [m]
@@ -78,7 +79,7 @@ class ObjectFigures:
     at : float or None
         When that was [s], from the start of the bag.
     known_step : int or None
-        Step from which on d was known to 2 mm for good, see `tactile_push.report.known`.
+        Step from which on d was known to 2 mm for good, see `tactile_push.report.merit.known_step`.
     contradictions : list of Contradiction
         When the readings contradicted the object.
     forgotten : list of Forgotten
@@ -87,6 +88,8 @@ class ObjectFigures:
         Control periods after which something was known and of which a simulator told the true d.
     inside, inside_guaranteed : float or None
         Share of them in which it was in the 95 % interval and in the guaranteed one.
+    paper : PaperFigures or None
+        What the paper publishes of the same experiment.
     """
 
     finger: str
@@ -101,6 +104,7 @@ class ObjectFigures:
     compared: int
     inside: float | None
     inside_guaranteed: float | None
+    paper: PaperFigures | None
 
 
 class ObjectHistory:
@@ -114,12 +118,16 @@ class ObjectHistory:
         First log time of the bag [ns].
     object_told : bool
         Whether somebody said what is pushed.
+    pushed : str
+        Which object of the paper it is, `OTHER` if it is none.
     """
 
-    def __init__(self, finger: str, start: int, object_told: bool) -> None:
+    def __init__(self, finger: str, start: int, object_told: bool, pushed: str) -> None:
         self._finger = finger
         self._start = start
         self._object_told = object_told
+        self._pushed = pushed
+        self._theta_desired = math.nan
         self._ticks: list[SensedTick] = []
         self._ages = array('d')  # of the reading that each one tells of [s]; NaN if unknown
         self._steps = array('d')  # when the law acted [s]
@@ -130,7 +138,7 @@ class ObjectHistory:
         self._forgotten: list[Forgotten] = []
         self._true_at, self._true_d = array('d'), array('d')
 
-    def add(self, stamp: Stamp, state: str, sensed: Sensed) -> None:
+    def add(self, stamp: Stamp, state: str, theta_desired: float, sensed: Sensed) -> None:
         """Take a control period.
 
         Parameters
@@ -139,6 +147,8 @@ class ObjectHistory:
             When it was [s, ns].
         state : str
             What the controller was doing: one of `STATES`.
+        theta_desired : float
+            Desired angle of the edge [rad].
         sensed : Sensed
             What it told.
         """
@@ -148,6 +158,7 @@ class ObjectHistory:
         self._ages.append(values['age'] if known else math.nan)
         if state == PUSHING:
             self._steps.append(at)
+            self._theta_desired = theta_desired
         self._readings += sensed.took
         if known:
             self._last = at, values
@@ -202,6 +213,7 @@ class ObjectHistory:
             compared,
             inside,
             inside_guaranteed,
+            paper_figures(self._theta_desired, self._pushed),
         )
 
     def _compare(self) -> tuple[int, float | None, float | None]:

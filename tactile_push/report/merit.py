@@ -3,22 +3,37 @@
 """The paper's figures of merit, from the states that the controller published (Section V.C)."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 
 from tactile_push.control import PUSHING, STATES, STOP_REASONS, STOPPED, settle_step
 from tactile_push.estimation import contact_of_translation
-from tactile_push.paper import PaperFigures, Range, paper_figures
+from tactile_push.paper import (
+    BLOCK,
+    BLOCK_EDGE,
+    BLOCK_L,
+    DISK,
+    DISK_RADIUS,
+    OTHER,
+    TRANSLATING_STEP,
+    PaperFigures,
+    Range,
+    paper_figures,
+)
+from tactile_push.report.columns import Column, Table
 
-TRANSLATING = 400  # the step after which the paper reads off its ranges
-
-# What is taken of `push_controller/state`.
-_OF_STEPS = ('theta', 'theta_desired', 'phi', 'v_x', 'saturated', 'limited')
-FIELDS = (*_OF_STEPS, 'silence', 'state', 'stop_reason', 'ticks', 'ticks_lost')
-_BLOCK = 4096  # steps that are kept until they are evaluated; more than TRANSLATING
+KNOWN = 0.002  # d is known if its 95 % interval is no wider; the paper reads off 1.8 mm [m]
+# The parameters of `sim_plant` that are the sizes of an object, l last, and the paper's values.
+SIZES = {
+    BLOCK: {'edge_length': BLOCK_EDGE, 'edge_to_cm': BLOCK_L},
+    DISK: {'disk_radius': DISK_RADIUS},
+}
+# What the figures are computed from.
+OF_STEPS = ('theta', 'theta_desired', 'phi', 'v_x', 'saturated', 'limited')
+FIELDS = (*OF_STEPS, 'silence', 'state', 'stop_reason', 'ticks', 'ticks_lost')
 
 
 @dataclass(frozen=True)
@@ -64,7 +79,7 @@ class PushFigures:
     settle_step : int or None
         Step from which theta stays so near.
     ranges_from : int
-        Step from which the following ranges are taken: `TRANSLATING` or, in a shorter run, the
+        Step from which the following ranges are taken: the paper's or, in a shorter run, the
         beginning of its last third.
     theta_range, phi_range : tuple of float or None
         Least and greatest angle [rad].
@@ -85,7 +100,7 @@ class PushFigures:
     stops : list of Stop
         When the finger was held.
     paper : PaperFigures or None
-        What to compare with.
+        What the paper publishes of the same experiment.
     """
 
     states: int
@@ -111,203 +126,167 @@ class PushFigures:
     paper: PaperFigures | None
 
 
-class PushHistory:
-    """Takes the states of a controller, one after the other, and tells how well it pushed.
-
-    It keeps a bounded number of them, however many there are.
+def push_figures(
+    states: Table, band: float, l: float | None = None, pushed: str | None = None
+) -> PushFigures:
+    """Compute how well a finger pushed.
 
     Parameters
     ----------
+    states : dict of str to ndarray
+        The columns of `push_controller/state`: those of `FIELDS` that were recorded, 'time' [s]
+        from the start of the bag and, if it is another one, 'stamp' by the header [s].
     band : float
         How near to the desired angle counts as settled [rad].
-    l : float or None
+    l : float, optional
         Distance from the edge to the centre of mass [m], if it is known.
-    pushed : str or None
-        What is pushed, if it is known: the parameter `object` of `sim_plant`.
+    pushed : str, optional
+        What is pushed, if it is known: `BLOCK`, `DISK` or `OTHER` of `tactile_push.paper`.
+
+    Returns
+    -------
+    PushFigures
+        The figures of merit.
     """
-
-    def __init__(self, band: float, l: float | None = None, pushed: str | None = None) -> None:
-        self._band = band
-        self._l = l
-        self._pushed = pushed
-        self._seen: set[str] = set()
-        self._states = 0
-        self._ticks, self._ticks_lost = _Counter(), _Counter()
-        self._silence, self._silence_at = -math.inf, math.nan
-        self._stops: list[Stop] = []
-        self._open: _OpenStop | None = None
-        # Of the steps: those not evaluated yet, and what is known of the others.
-        self._rows: list[tuple[float, ...]] = []
-        self._steps = 0
-        self._ranges_from = TRANSLATING
-        self._settled: int | None = None
-        self._theta_desired = math.nan
-        self._changes = 0
-        self._saturated, self._limited = 0.0, 0.0
-        self._v_x, self._theta, self._phi, self._beta = (_Extremes() for _ in range(4))
-
-    def add(self, time: float, stamp: float, values: Mapping[str, float]) -> None:
-        """Take a state.
-
-        Parameters
-        ----------
-        time : float
-            When it was recorded [s], from the start of the bag.
-        stamp : float
-            When it was published, by its header [s], from any time on.
-        values : mapping of str to float
-            Its values by name.
-        """
-        self._seen.update(values)
-        self._states += 1
-        self._ticks.add(values.get('ticks', math.nan))
-        self._ticks_lost.add(values.get('ticks_lost', math.nan))
-        state = values.get('state')
-        stopped = state == STATES.index(STOPPED)
-        pushing = state == STATES.index(PUSHING)
-        if state is None:  # of old
-            pushing = math.isfinite(values.get('theta', math.nan))
-        self._follow_stops(time, stamp, stopped, values.get('stop_reason', math.nan))
-        if (pushing or stopped) and values.get('silence', math.nan) > self._silence:
-            self._silence, self._silence_at = values['silence'], time
-        if pushing:
-            self._rows.append(tuple(values.get(name, math.nan) for name in _OF_STEPS))
-            if len(self._rows) == _BLOCK:
-                self._evaluate()
-
-    def figures(self) -> PushFigures:
-        """Evaluate what is left; no more states are taken after that.
-
-        Returns
-        -------
-        PushFigures
-            The figures of merit of all states.
-        """
-        steps = self._steps + len(self._rows)
-        if steps <= TRANSLATING:
-            self._ranges_from = steps - steps // 3
-        self._evaluate()
-        stops = list(self._stops)
-        if self._open is not None:
-            stops.append(self._open.close(self._open.last, ended=False))
-        has = self._seen.__contains__
-        desired = self._theta_desired if math.isfinite(self._theta_desired) else None
-        silent = math.isfinite(self._silence)
-        return PushFigures(
-            states=self._states,
-            steps=self._steps,
-            missing=tuple(name for name in FIELDS if name not in self._seen),
-            theta_desired=desired,
-            theta_desired_changes=self._changes,
-            band=self._band,
-            settle_step=self._settled,
-            ranges_from=self._ranges_from,
-            theta_range=self._theta.range,
-            phi_range=self._phi.range,
-            l=self._l,
-            d_range=self._d_range(),
-            v_x_range=self._v_x.range,
-            saturated_share=self._share(self._saturated) if has('saturated') else None,
-            limited_share=self._share(self._limited) if has('limited') else None,
-            ticks=self._ticks.total if has('ticks') else None,
-            ticks_lost=self._ticks_lost.total if has('ticks_lost') else None,
-            silence=self._silence if silent else None,
-            silence_at=self._silence_at if silent else None,
-            stops=stops,
-            paper=None if desired is None else paper_figures(desired, self._pushed),
-        )
-
-    def _share(self, count: float) -> float | None:
-        return count / self._steps if self._steps else None
-
-    def _d_range(self) -> Range | None:
-        if self._l is None or self._beta.range is None:
-            return None
-        # d grows with phi - theta.
-        d_lower, d_upper = (contact_of_translation(0.0, beta, self._l) for beta in self._beta.range)
-        return d_lower, d_upper
-
-    def _evaluate(self) -> None:
-        """Take what is to be known of the steps that are kept, and forget them."""
-        count = len(self._rows)
-        if count == 0:
-            return
-        steps = dict(zip(_OF_STEPS, np.array(self._rows, dtype=float).T, strict=True))
-        self._rows.clear()
-        error = steps['theta'] - steps['theta_desired']
-        settled = settle_step(error, 0.0, self._band)
-        if settled is None:
-            self._settled = None
-        elif settled > 0 or self._settled is None:
-            self._settled = self._steps + settled
-        desired = np.concatenate(([self._theta_desired], steps['theta_desired']))
-        desired = desired[np.isfinite(desired)]
-        self._changes += int(np.count_nonzero(np.diff(desired)))
-        if len(desired):
-            self._theta_desired = float(desired[-1])
-        self._saturated += float(np.nansum(steps['saturated']))
-        self._limited += float(np.nansum(steps['limited']))
-        self._v_x.add(steps['v_x'])
-        first = max(self._ranges_from - self._steps, 0)
-        theta, phi = steps['theta'][first:], steps['phi'][first:]
-        self._theta.add(theta)
-        self._phi.add(phi)
-        beta = phi - theta
-        self._beta.add(beta[(beta > 0.0) & (beta < math.pi)])
-        self._steps += count
-
-    def _follow_stops(self, time: float, stamp: float, stopped: bool, reason: float) -> None:
-        if self._open is not None:
-            if stopped and reason == self._open.reason:
-                self._open.last = stamp
-            else:
-                self._stops.append(self._open.close(stamp, ended=True))
-                self._open = None
-        if stopped and self._open is None:
-            self._open = _OpenStop(reason, time, stamp, stamp)
+    time = states.get('time', np.empty(0))
+    column = {name: states.get(name, np.full(len(time), math.nan)) for name in FIELDS}
+    state = column['state']
+    # A bag that is older than the field tells it by theta.
+    pushing = (state == STATES.index(PUSHING)) | (np.isnan(state) & np.isfinite(column['theta']))
+    stopped = state == STATES.index(STOPPED)
+    step = {name: column[name][pushing] for name in OF_STEPS}
+    steps = int(pushing.sum())
+    first = TRANSLATING_STEP if steps > TRANSLATING_STEP else steps - steps // 3
+    theta, phi = step['theta'][first:], step['phi'][first:]
+    desired = step['theta_desired'][np.isfinite(step['theta_desired'])]
+    theta_desired = float(desired[-1]) if len(desired) else None
+    silence, silence_at = _longest_silence(time, column['silence'], pushing | stopped)
+    return PushFigures(
+        states=len(time),
+        steps=steps,
+        missing=tuple(name for name in FIELDS if name not in states),
+        theta_desired=theta_desired,
+        theta_desired_changes=int(np.count_nonzero(np.diff(desired))),
+        band=band,
+        settle_step=settle_step(step['theta'] - step['theta_desired'], 0.0, band),
+        ranges_from=first,
+        theta_range=_range(theta),
+        phi_range=_range(phi),
+        l=l,
+        d_range=_d_range(phi - theta, l),
+        v_x_range=_range(step['v_x']),
+        saturated_share=_share(step['saturated']) if 'saturated' in states else None,
+        limited_share=_share(step['limited']) if 'limited' in states else None,
+        ticks=_count(column['ticks']) if 'ticks' in states else None,
+        ticks_lost=_count(column['ticks_lost']) if 'ticks_lost' in states else None,
+        silence=silence,
+        silence_at=silence_at,
+        stops=_stops(time, states.get('stamp', time), stopped, column['stop_reason']),
+        paper=None if theta_desired is None else paper_figures(theta_desired, pushed),
+    )
 
 
-class _Extremes:
-    """The least and the greatest of the finite values taken so far."""
+def plant_object(plant: Mapping[str, object]) -> tuple[str | None, float | None]:
+    """Return what the simulated plant pushes.
 
-    def __init__(self) -> None:
-        self.range: Range | None = None
+    Parameters
+    ----------
+    plant : mapping of str to object
+        The parameters of `sim_plant`, as far as they are known.
 
-    def add(self, values: npt.NDArray[np.float64]) -> None:
-        values = values[np.isfinite(values)]
-        if len(values):
-            before = self.range or (math.inf, -math.inf)
-            self.range = min(before[0], float(values.min())), max(before[1], float(values.max()))
-
-
-@dataclass
-class _Counter:
-    """A count that begins anew at each activation."""
-
-    finished: float = 0.0
-    current: float = 0.0
-
-    def add(self, count: float) -> None:
-        if math.isfinite(count):
-            if count < self.current:
-                self.finished += self.current
-            self.current = count
-
-    @property
-    def total(self) -> int:
-        return round(self.finished + self.current)
+    Returns
+    -------
+    pushed : str or None
+        `BLOCK`, `DISK` or `OTHER` of `tactile_push.paper`; None if it is not known.
+    l : float or None
+        Distance from its edge or tangent to its centre of mass [m], if it is known.
+    """
+    if 'object' not in plant:
+        return None, None
+    named = str(plant['object'])
+    sizes = SIZES.get(named, {})
+    given = {name: plant[name] for name in sizes if name in plant}
+    l = given.get(list(sizes)[-1]) if sizes else None
+    return (
+        named if sizes and all(given[name] == sizes[name] for name in given) else OTHER,
+        l if isinstance(l, float) and math.isfinite(l) and l > 0.0 else None,
+    )
 
 
-@dataclass
-class _OpenStop:
-    """A stop that has not ended yet; times by the bag's start, and by the stamps."""
+def known_step(
+    steps: Iterable[float], told: Iterable[float], widths: Iterable[float]
+) -> int | None:
+    """Find the step from which on d is known.
 
-    reason: float
-    at: float
-    first: float
-    last: float
+    Parameters
+    ----------
+    steps : iterable of float
+        When the law acted: the stamps of the steps of the paper, which count from 0 [s].
+    told : iterable of float
+        The stamps of the control periods of which estimates tell [s].
+    widths : iterable of float
+        How wide the 95 % intervals of their d are [m].
 
-    def close(self, stamp: float, *, ended: bool) -> Stop:
-        known = self.reason in range(len(STOP_REASONS))
-        name = STOP_REASONS[int(self.reason)] if known else f'unknown ({self.reason:g})'
-        return Stop(name, self.at, stamp - self.first, ended)
+    Returns
+    -------
+    int or None
+        The first step of which, as of all after it of which estimates tell, the interval is not
+        wider than `KNOWN`; None if it is wider at the end. What is forgotten later was not known
+        for good.
+    """
+    by_stamp = dict(zip(told, widths, strict=True))
+    last = max(by_stamp, default=-math.inf)
+    found = [by_stamp.get(step, math.inf) for step in steps if step <= last]
+    return settle_step(found, 0.0, KNOWN)
+
+
+def _range(values: Column) -> Range | None:
+    """Return the least and the greatest finite value."""
+    values = values[np.isfinite(values)]
+    return (float(values.min()), float(values.max())) if len(values) else None
+
+
+def _d_range(beta: Column, l: float | None) -> Range | None:
+    """Return the bounds on d by (17), which grows with beta = phi - theta."""
+    bounds = _range(beta[(beta > 0.0) & (beta < math.pi)])
+    if l is None or bounds is None:
+        return None
+    d_lower, d_upper = (contact_of_translation(0.0, bound, l) for bound in bounds)
+    return d_lower, d_upper
+
+
+def _share(flags: Column) -> float | None:
+    return float(np.nansum(flags)) / len(flags) if len(flags) else None
+
+
+def _count(counts: Column) -> int:
+    """Return the total of a count that begins anew at each activation."""
+    counts = counts[np.isfinite(counts)]
+    finished = counts[:-1][np.diff(counts) < 0.0]
+    return round(float(finished.sum() + counts[-1:].sum()))
+
+
+def _longest_silence(
+    time: Column, silence: Column, touched: np.ndarray
+) -> tuple[float | None, float | None]:
+    """Return the longest silence after the first contact, and when it was."""
+    lasted = np.where(touched & ~np.isnan(silence), silence, -math.inf)
+    longest = int(lasted.argmax()) if len(lasted) else 0
+    if not len(lasted) or not math.isfinite(lasted[longest]):
+        return None, None
+    return float(lasted[longest]), float(time[longest])
+
+
+def _stops(time: Column, stamp: Column, stopped: np.ndarray, reason: Column) -> list[Stop]:
+    """Return the times for which the finger was held for one reason."""
+    reason = np.where(stopped, reason, math.nan)
+    changes = (stopped[1:] != stopped[:-1]) | (stopped[1:] & (reason[1:] != reason[:-1]))
+    found = []
+    for first, after in pairwise([0, *(np.flatnonzero(changes) + 1).tolist(), len(time)]):
+        if first < after and stopped[first]:
+            ended = after < len(time)
+            known = reason[first] in range(len(STOP_REASONS))
+            words = STOP_REASONS[int(reason[first])] if known else f'unknown ({reason[first]:g})'
+            end = stamp[after] if ended else stamp[-1]
+            found.append(Stop(words, float(time[first]), float(end - stamp[first]), ended))
+    return found

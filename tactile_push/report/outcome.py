@@ -4,25 +4,40 @@
 
 import math
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from rich.markup import escape
+from rich.table import Table as RichTable
 
 from tactile_push.control import PUSHING, STATES
-from tactile_push.paper import Range, paper_figures
-from tactile_push.report.known import KNOWN, known_step
-from tactile_push.report.merit import PushFigures, PushHistory
-from tactile_push.report.reading import Table
+from tactile_push.paper import TOLERANCE, PaperFigures, Range, paper_figures
+from tactile_push.report.columns import Table
+from tactile_push.report.merit import KNOWN, PushFigures, known_step, plant_object, push_figures
 
-BAND = math.radians(3.0)  # how near to its desired value theta counts as settled [rad]
-# The parameter of `sim_plant` that is l, by what is pushed.
-DISTANCES = {'block': 'edge_to_cm', 'disk': 'disk_radius'}
 DEGREES, MILLIMETRES = 180.0 / math.pi, 1e3
 
-Row = tuple[str, str, str]
-"""What, its value, the paper's."""
+
+class Row(NamedTuple):
+    """A row of the table "this run | paper".
+
+    Parameters
+    ----------
+    what : str
+        The quantity, with its unit.
+    here : str
+        Its value in this run.
+    paper : str, optional
+        Its value in the paper.
+    """
+
+    what: str
+    here: str
+    paper: str = ''
 
 
 def outcome_of(ticks: Table, sensing: Table, plant: Mapping[str, object]) -> list[Row]:
-    """Give the figures of merit.
+    """Return the figures of merit of a run.
 
     Parameters
     ----------
@@ -35,86 +50,151 @@ def outcome_of(ticks: Table, sensing: Table, plant: Mapping[str, object]) -> lis
 
     Returns
     -------
-    list of tuple of str
-        What, its value, the paper's.
+    list of Row
+        The rows, as `push_rows` returns them.
     """
     if not ticks:
         return []
-    pushed = plant.get('object')
-    thing = pushed if isinstance(pushed, str) else None
-    l = plant.get(DISTANCES.get(thing or '', ''))
-    paper = paper_figures(float(ticks.get('theta_desired', [math.nan])[-1]), thing)
-    history = PushHistory(paper.band if paper else BAND, l if isinstance(l, float) else None, thing)
-    names = [name for name in ticks if name != 'time']
-    for time, *values in zip(ticks['time'], *(ticks[name] for name in names), strict=True):
-        history.add(float(time), float(time), dict(zip(names, map(float, values), strict=True)))
-    return _rows(history.figures(), _known(ticks, sensing))
+    pushed, l = plant_object(plant)
+    paper = paper_figures(float(ticks.get('theta_desired', [math.nan])[-1]), pushed)
+    push = push_figures(ticks, paper.band if paper else TOLERANCE, l, pushed)
+    known = None
+    if 'state' in ticks and {'d_lower', 'd_upper'} <= sensing.keys():
+        widths = sensing['d_upper'] - sensing['d_lower']
+        if widths.any():  # of a round object d is 0 from the beginning
+            steps = ticks['time'][ticks['state'] == STATES.index(PUSHING)]
+            known = step_words(known_step(steps, sensing['time'], widths))
+    return push_rows(push, known)
 
 
-def _known(ticks: Table, sensing: Table) -> str | None:
-    """Tell from which step on d is known; None if that is not recorded or d is 0 by roundness."""
-    if 'state' not in ticks or not {'d_lower', 'd_upper'} <= sensing.keys():
-        return None
-    widths = sensing['d_upper'] - sensing['d_lower']
-    if not widths.any():
-        return None
-    steps = ticks['time'][ticks['state'] == STATES.index(PUSHING)]
-    step = known_step(steps, sensing['time'], widths)
+def push_rows(push: PushFigures, known: str | None = None) -> list[Row]:
+    """Return the figures of merit of a push beside the paper's.
+
+    Parameters
+    ----------
+    push : PushFigures
+        The figures.
+    known : str, optional
+        From which step on d was known, in words, if active sensing was recorded.
+
+    Returns
+    -------
+    list of Row
+        The rows; what the bag does not tell is left out.
+    """
+    paper = push.paper
+    theta, phi, d = (paper.theta_range, paper.phi_range, paper.d_range) if paper else (None,) * 3
+    band, settled = f'{push.band * DEGREES:.3g}°', ''
+    if paper is not None:
+        other = not math.isclose(paper.band, push.band)
+        settled = f'{paper.settle_step}' + (f' ({paper.band * DEGREES:g}°)' if other else '')
+    rows = [Row('steps', f'{push.steps:,}')]
+    if push.theta_desired is not None:
+        changes = push.theta_desired_changes
+        changed = f' (changed {changes} times)' if changes else ''
+        rows.append(Row('θ_d [°]', fixed(push.theta_desired * DEGREES, 1) + changed))
+    if push.steps:
+        rows.append(Row(f'θ within {band} of θ_d from step', step_words(push.settle_step), settled))
+    since = f'from step {push.ranges_from}'
+    rows += _range(f'θ {since} [°]', push.theta_range, theta, DEGREES, 1)
+    rows += _range(f'φ {since} [°]', push.phi_range, phi, DEGREES, 1)
+    if push.l is not None:
+        rows.append(Row('l [mm]', f'{push.l * MILLIMETRES:g}'))
+    rows += _range('so d by (17) [mm]', push.d_range, d, MILLIMETRES, 2)
+    if known is not None:
+        rows.append(known_row(known, paper))
+    rows += _range('v_x [mm/s]', push.v_x_range, None, MILLIMETRES, 2)
+    for what, share in (('φ', push.saturated_share), ('v_x', push.limited_share)):
+        if share is not None:
+            rows.append(Row(f'steps with {what} at its bound', f'{share:.1%}'))
+    for what, count in (('control ticks', push.ticks), ('control ticks lost', push.ticks_lost)):
+        if count is not None:
+            rows.append(Row(what, f'{count:,}'))
+    if push.silence is not None:
+        silence = f'{push.silence:.3f} at {push.silence_at:.3f} s'
+        rows.append(Row('longest silence of the contact [s]', silence))
+    reasons = Counter(stop.reason for stop in push.stops)
+    stops = ', '.join(f'{reason} {count}×' for reason, count in reasons.items())
+    return [*rows, Row('stops', stops or 'none')]
+
+
+def known_row(known: str, paper: PaperFigures | None) -> Row:
+    """Return the row that says from which step on d was known.
+
+    Parameters
+    ----------
+    known : str
+        The step in words.
+    paper : PaperFigures or None
+        What the paper publishes of the same experiment.
+
+    Returns
+    -------
+    Row
+        The row.
+    """
+    of_paper = paper.known_step if paper is not None else None
+    what = f'd known to {KNOWN * MILLIMETRES:g} mm from step'
+    return Row(what, known, '' if of_paper is None else f'{of_paper}')
+
+
+def step_words(step: int | None) -> str:
+    """Return a step for people, 'never' if there is none."""
     return 'never' if step is None else f'{step:,}'
 
 
-def _rows(push: PushFigures, known: str | None) -> list[Row]:
-    paper = push.paper
-    theta, phi, d = (paper.theta_range, paper.phi_range, paper.d_range) if paper else (None,) * 3
-    since = f'from step {push.ranges_from}'
-    band = f'{push.band * DEGREES:.3g}°'
-    rows: list[Row | None] = [
-        ('steps', f'{push.steps:,}', ''),
-        (
-            f'θ within {band} of θ_d from step',
-            'never' if push.settle_step is None else f'{push.settle_step:,}',
-            f'{paper.settle_step}' if paper else '',
-        ),
-        _range(f'θ {since} [°]', push.theta_range, theta, DEGREES, 1),
-        _range(f'φ {since} [°]', push.phi_range, phi, DEGREES, 1),
-        _range('so d by (17) [mm]', push.d_range, d, MILLIMETRES, 2),
-        _known_row(known, paper.known_step if paper else None),
-        _range('v_x [mm/s]', push.v_x_range, None, MILLIMETRES, 2),
-        _share('steps with φ at its bound', push.saturated_share),
-        _share('steps with v_x at its bound', push.limited_share),
-        _number('control ticks lost', push.ticks_lost, ','),
-        _number('longest silence of the contact [s]', push.silence, '.2f'),
-    ]
-    reasons = Counter(stop.reason for stop in push.stops)
-    stops = ', '.join(f'{reason} {count}×' for reason, count in reasons.items())
-    return [*(row for row in rows if row is not None), ('stops', stops or 'none', '')]
+def fixed(value: float, digits: int) -> str:
+    """Return a number with so many decimals, without the sign of what rounds to -0."""
+    return f'{round(value, digits) + 0.0:.{digits}f}'
 
 
-def _known_row(known: str | None, paper: int | None) -> Row | None:
-    what = f'd known to {KNOWN * MILLIMETRES:g} mm from step'
-    return None if known is None else (what, known, '' if paper is None else str(paper))
+def outcome_table(
+    runs: Mapping[str, tuple[Sequence[Row], PaperFigures | None]], title: str | None = None
+) -> RichTable:
+    """Return the table "this run | paper" for a terminal.
+
+    Parameters
+    ----------
+    runs : mapping of str to tuple
+        For the heading of each run its rows and what the paper publishes of the same experiment;
+        without that the run has no column of the paper.
+    title : str, optional
+        Title of the table.
+
+    Returns
+    -------
+    rich.table.Table
+        The table.
+    """
+    table = RichTable(title=None if title is None else escape(title), title_justify='left')
+    table.add_column('')
+    order: list[str] = []
+    for heading, (rows, paper) in runs.items():
+        table.add_column(escape(heading), justify='right')
+        if paper is not None:
+            table.add_column(f'paper, fig. {paper.figure}', justify='right', style='dim')
+        place = 0
+        for row in rows:  # what other runs do not have goes behind the row before it
+            if row.what not in order:
+                order.insert(place, row.what)
+            place = order.index(row.what) + 1
+    for what in order:
+        cells = []
+        for rows, paper in runs.values():
+            row = next((row for row in rows if row.what == what), Row(what, ''))
+            cells += [row.here] if paper is None else [row.here, row.paper]
+        table.add_row(*map(escape, [what, *cells]))
+    return table
 
 
 def _range(
     what: str, found: Range | None, paper: Range | None, factor: float, digits: int
-) -> Row | None:
+) -> list[Row]:
+    """Return the row of a range; none if it was not found."""
     if found is None:
-        return None
+        return []
     here, there = (
-        '' if pair is None else ' to '.join(_fixed(value * factor, digits) for value in pair)
+        '' if pair is None else ' to '.join(fixed(value * factor, digits) for value in pair)
         for pair in (found, paper)
     )
-    typeset = {ord('-'): '−', ord(' '): '\N{NO-BREAK SPACE}'}
-    return what, here.translate(typeset), there.translate(typeset)
-
-
-def _fixed(value: float, digits: int) -> str:
-    return f'{round(value, digits) + 0.0:.{digits}f}'  # of no -0.0
-
-
-def _share(what: str, share: float | None) -> Row | None:
-    return None if share is None else (what, f'{share:.1%}', '')
-
-
-def _number(what: str, number: float | None, form: str) -> Row | None:
-    return None if number is None else (what, format(number, form), '')
+    return [Row(what, here, there)]

@@ -80,7 +80,7 @@ def report_html(run: Run) -> str:
         style=_part('page.css'),
         facts=html.escape(' · '.join(run.facts)),
         warnings=_warnings(run.warnings),
-        summary=_table(('', 'this run', 'paper'), run.outcome) if run.outcome else '',
+        summary=_outcome(run.outcome) if run.outcome else '',
         events=_events(run.episodes),
         parameters=''.join(_details(title, rows) for title, rows in run.tables.items()),
         data=_script_json(_content(run)),
@@ -164,6 +164,14 @@ def _scene(scene: Scene) -> dict[str, object]:
         'outline': [_numbers(MILLIMETRES * np.array(point), 3) for point in scene.outline],
         'mu_c': 'infinite' if mu_c == math.inf else mu_c,
     }
+
+
+def _outcome(rows: Sequence[tuple[str, str, str]]) -> str:
+    typeset = str.maketrans({'-': '−', ' ': '\N{NO-BREAK SPACE}'})
+    return _table(
+        ('', 'this run', 'paper'),
+        [[cell.translate(typeset) if ' to ' in cell else cell for cell in row] for row in rows],
+    )
 
 
 def _warnings(warnings: Sequence[str]) -> str:

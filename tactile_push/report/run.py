@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A run as its bag tells it."""
 
-import json
 from collections.abc import Callable, Mapping
 from datetime import datetime, timezone
 
@@ -11,48 +10,54 @@ import numpy as np
 from tactile_push.bags import BagReader
 from tactile_push.control import INACTIVE, STATES, STOP_REASONS, STOPPED, WAITING
 from tactile_push.estimation import CONTRADICTIONS
-from tactile_push.report.data import ERROR, NOTE, WARNING, Episode, Run, Series
-from tactile_push.report.episodes import Label, episodes, joined
-from tactile_push.report.outcome import outcome_of
-from tactile_push.report.reading import (
+from tactile_push.interface import (
     CONTACT,
-    ESTIMATE,
-    READINGS,
-    SENSING,
-    STATE,
+    CONTROLLER_STATE,
+    GEOMETRY_STATE,
+    OBJECT_POSE,
+    SENSING_STATE,
+    SIM_PLANT,
     TACTILE,
     TRUE_POSE,
-    TRUTH,
+    TRUE_STATE,
+    VERSION_NOTE,
+    node_in,
+)
+from tactile_push.report.columns import (
     Statuses,
     Table,
     namespaces,
+    node_parameters,
     read_tables,
     topics_of,
 )
+from tactile_push.report.data import ERROR, NOTE, WARNING, Episode, Run, Series
+from tactile_push.report.episodes import Label, episodes, joined
+from tactile_push.report.outcome import outcome_of
 from tactile_push.report.scene import scene_of
 from tactile_push.tactile import REFUSALS
 
 # Where a series comes from: the first topic of these that the bag has, and the name there.
 SOURCES = {
-    'theta': ((STATE, 'theta'), (CONTACT, 'yaw'), (TRUTH, 'theta')),
-    'theta_desired': ((STATE, 'theta_desired'),),
-    'phi': ((STATE, 'phi'), (TRUTH, 'phi')),
-    'v_x': ((STATE, 'v_x'),),
-    'v_x_true': ((TRUTH, 'v_x'),),
-    'd': ((SENSING, 'd'),),
-    'd_lower': ((SENSING, 'd_lower'),),
-    'd_upper': ((SENSING, 'd_upper'),),
-    'd_least': ((SENSING, 'd_least'),),
-    'd_most': ((SENSING, 'd_most'),),
-    'd_true': ((TRUTH, 'd'),),
-    'silence': ((STATE, 'silence'),),
-    'finger_x': ((STATE, 'finger_x'), (TRUTH, 'finger_x')),
-    'belt_travel': ((TRUTH, 'belt_travel'),),
+    'theta': ((CONTROLLER_STATE, 'theta'), (CONTACT, 'yaw'), (TRUE_STATE, 'theta')),
+    'theta_desired': ((CONTROLLER_STATE, 'theta_desired'),),
+    'phi': ((CONTROLLER_STATE, 'phi'), (TRUE_STATE, 'phi')),
+    'v_x': ((CONTROLLER_STATE, 'v_x'),),
+    'v_x_true': ((TRUE_STATE, 'v_x'),),
+    'd': ((SENSING_STATE, 'd'),),
+    'd_lower': ((SENSING_STATE, 'd_lower'),),
+    'd_upper': ((SENSING_STATE, 'd_upper'),),
+    'd_least': ((SENSING_STATE, 'd_least'),),
+    'd_most': ((SENSING_STATE, 'd_most'),),
+    'd_true': ((TRUE_STATE, 'd'),),
+    'silence': ((CONTROLLER_STATE, 'silence'),),
+    'finger_x': ((CONTROLLER_STATE, 'finger_x'), (TRUE_STATE, 'finger_x')),
+    'belt_travel': ((TRUE_STATE, 'belt_travel'),),
     'object_x': ((TRUE_POSE, 'x'),),
     'object_y': ((TRUE_POSE, 'y'),),
     'object_angle': ((TRUE_POSE, 'yaw'),),
-    'estimate_x': ((ESTIMATE, 'x'),),
-    'estimate_y': ((ESTIMATE, 'y'),),
+    'estimate_x': ((OBJECT_POSE, 'x'),),
+    'estimate_y': ((OBJECT_POSE, 'y'),),
 }
 # What the controller can be doing, in words.
 DOING = (*STATES, *(f'{STOPPED}: {reason}' for reason in STOP_REASONS[1:]))
@@ -60,7 +65,6 @@ DOING = (*STATES, *(f'{STOPPED}: {reason}' for reason in STOP_REASONS[1:]))
 NO_FAULT = {'no contact': (NOTE, 'no contact'), 'not newer': None}
 TICK_LASTS = 1.0  # what the last tick says of the controller [s]
 STATUS_LASTS = 2.0  # what a node, which reports once a second, says of itself [s]
-PARAMETERS, VERSION = 'tactile_push.parameters', 'tactile_push.version'
 
 
 def messages_shown(bag: BagReader) -> int:
@@ -106,8 +110,11 @@ def read_run(bag: BagReader, progress: Callable[[int], None] = lambda done: None
     """
     namespace, *others = namespaces(bag)
     tables, statuses = read_tables(bag, topics_of(bag, namespace), progress)
-    parameters = _parameters(bag)
-    plant = parameters.get(f'{namespace}/sim_plant'.removeprefix('/'))
+    try:
+        parameters = node_parameters(bag) or {}
+    except ValueError:
+        parameters = {}
+    plant = parameters.get(node_in(namespace, SIM_PLANT))
     duration = (bag.end_time - bag.start_time) * 1e-9
     series = _series(tables)
     names = ', '.join(name or '/' for name in others)
@@ -119,21 +126,12 @@ def read_run(bag: BagReader, progress: Callable[[int], None] = lambda done: None
         episodes=joined(_episodes(tables, statuses), 0.0, duration),
         scene=scene_of(plant, tables),
         facts=_facts(bag, duration),
-        outcome=outcome_of(tables.get(STATE, {}), tables.get(SENSING, {}), plant or {}),
+        outcome=outcome_of(
+            tables.get(CONTROLLER_STATE, {}), tables.get(SENSING_STATE, {}), plant or {}
+        ),
         tables=_details(bag, parameters),
         warnings=[f'not shown: the topics in {names}'] if others else [],
     )
-
-
-def _parameters(bag: BagReader) -> dict[str, dict[str, object]]:
-    """Give the nodes' parameters, as far as the bag has them and they make sense."""
-    try:
-        parameters = json.loads(bag.notes.get(PARAMETERS, '{}'))
-    except ValueError:
-        return {}
-    if not isinstance(parameters, dict):
-        return {}
-    return {node: values for node, values in parameters.items() if isinstance(values, dict)}
 
 
 def _series(tables: Mapping[str, Table]) -> dict[str, Series]:
@@ -147,15 +145,17 @@ def _series(tables: Mapping[str, Table]) -> dict[str, Series]:
     if TACTILE in tables:
         time = tables[TACTILE]['time']
         series['interval'] = Series(time[1:], np.diff(time))
-    if {'state', 'stop_reason'} <= tables.get(STATE, {}).keys():
-        state, reason = tables[STATE]['state'], tables[STATE]['stop_reason']
+    if {'state', 'stop_reason'} <= tables.get(CONTROLLER_STATE, {}).keys():
+        state, reason = tables[CONTROLLER_STATE]['state'], tables[CONTROLLER_STATE]['stop_reason']
         doing = np.where(reason > 0.0, len(STATES) + reason - 1.0, state)
-        series['state'] = Series(tables[STATE]['time'], doing)
+        series['state'] = Series(tables[CONTROLLER_STATE]['time'], doing)
     return series
 
 
 def _episodes(tables: Mapping[str, Table], statuses: Statuses) -> list[Episode]:
-    ticks, readings, sensing = (tables.get(topic, {}) for topic in (STATE, READINGS, SENSING))
+    ticks, readings, sensing = (
+        tables.get(topic, {}) for topic in (CONTROLLER_STATE, GEOMETRY_STATE, SENSING_STATE)
+    )
     found = []
     if {'state', 'stop_reason'} <= ticks.keys():
         labels = [
@@ -208,8 +208,8 @@ def _facts(bag: BagReader, duration: float) -> list[str]:
     start = datetime.fromtimestamp(bag.start_time * 1e-9, timezone.utc)
     if start.year > 1970:  # of no simulated clock
         facts.insert(0, f'{start:%Y-%m-%d %H:%M:%S} UTC')
-    if VERSION in bag.notes:
-        facts.append(f'tactile_push {bag.notes[VERSION]}')
+    if VERSION_NOTE in bag.notes:
+        facts.append(f'tactile_push {bag.notes[VERSION_NOTE]}')
     return facts
 
 

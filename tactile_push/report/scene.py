@@ -8,13 +8,14 @@ from collections.abc import Mapping
 import numpy as np
 import numpy.typing as npt
 
+from tactile_push.interface import CONTACT, TRUE_POSE, TRUE_STATE
+from tactile_push.paper import FINGER_RADIUS
 from tactile_push.parameters import SimPlantParameters
 from tactile_push.parameters.rig import rig_config
+from tactile_push.report.columns import Table
 from tactile_push.report.data import Scene
-from tactile_push.report.reading import CONTACT, TRUE_POSE, TRUTH, Table
 from tactile_push.simulation import RigConfig, paper_block, paper_disk
 
-RADIUS = 0.0135  # of the paper's finger, where the bag says nothing of it [m]
 SPACING = 0.001  # of points on round outlines [m]
 NEAR = 0.001  # how far from its contacts the outline of a paper's object may be [m]
 TRIED = 50  # contacts
@@ -58,12 +59,12 @@ def _outline(config: RigConfig) -> list[tuple[float, float]]:
 def _radius(tables: Mapping[str, Table]) -> float:
     contact = tables.get(CONTACT)
     found = math.nan if contact is None else np.median(np.hypot(contact['x'], contact['y']))
-    return float(found) if found > 0.0 else RADIUS
+    return float(found) if found > 0.0 else FINGER_RADIUS
 
 
 def _fits(config: RigConfig, radius: float, tables: Mapping[str, Table]) -> bool:
     """Tell whether the contacts lie on the outline."""
-    truth, pose = tables.get(TRUTH, {}), tables.get(TRUE_POSE, {})
+    truth, pose = tables.get(TRUE_STATE, {}), tables.get(TRUE_POSE, {})
     if 'theta' not in truth or not pose:
         return False
     theta = np.interp(pose['time'], truth['time'], truth['theta'])

@@ -158,6 +158,20 @@ def test_command_prints_a_summary_beside_the_paper(capsys):
     assert 'was not recorded' in err
 
 
+@pytest.mark.parametrize(
+    'outline',
+    ['vertices: [-0.03, -0.03, 0.03, -0.03, 0.03, 0.03, -0.03, 0.03]', 'disk_radius: 0.04'],
+)
+def test_command_shows_no_figure_of_the_paper_beside_another_object(tmp_path, capsys, outline):
+    config = tmp_path / 'object.yaml'
+    config.write_text(f'active_sensing:\n  ros__parameters:\n    {outline}\n')
+    main(['estimate', str(BLOCK), '--config', str(config)])
+    out = capsys.readouterr().out
+    assert 'this bag' in out
+    assert 'paper' not in out
+    assert ' 400 ' not in out
+
+
 def test_json_has_all_of_it(capsys, tmp_path):
     assert main(['estimate', str(STOPS), '--json', '-']) == 0
     (finger,) = json.loads(capsys.readouterr().out)['fingers']

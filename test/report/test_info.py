@@ -201,11 +201,12 @@ def test_command_says_what_is_in_a_bag(tmp_path, command):
     assert [STATE, JOINT_STATE, '450', '10.00', '0.100', '0.000', '0'] in rows
     assert ['/clock', CLOCK, '2', '1000000000.00', '0.000', '0.000'] in rows
     assert ['this bag', 'paper, fig. 9'] in rows
-    assert ['within 3° of θ_d from step', '192', '173'] in rows
-    assert ['θ from step 400 on [°]', '-10.0 to -10.0', '-10.4 to -8.9'] in rows
-    assert ['φ from step 400 on [°]', '82.5 to 82.5', '80.2 to 85.8'] in rows
-    assert ['so d by (17), l = 23.75 mm [mm]', '1.04 to 1.04', '0.30 to 2.10'] in rows
-    assert ['stops', '0'] in [row[:2] for row in rows]
+    assert ['θ within 3° of θ_d from step', '192', '173'] in rows
+    assert ['θ from step 400 [°]', '-10.0 to -10.0', '-10.4 to -8.9'] in rows
+    assert ['φ from step 400 [°]', '82.5 to 82.5', '80.2 to 85.8'] in rows
+    assert ['so d by (17) [mm]', '1.04 to 1.04', '0.30 to 2.10'] in rows
+    assert ['l [mm]', '23.75'] in [row[:2] for row in rows]
+    assert ['stops', 'none'] in [row[:2] for row in rows]
     assert ['kp', '0.05'] in rows
     assert 'not in this bag: saturated, limited, ticks, ticks_lost\n' in out
     assert 'parameters of /push_controller\n' in out
@@ -219,9 +220,9 @@ def test_command_counts_real_time_from_the_epoch(tmp_path, command):
 def test_command_takes_the_band(tmp_path, command):
     path = write_bag(tmp_path / 'bag', {STATE: pushes(0.0)})
     rows = rows_of(command(path, '--band-deg', '1')[1])
-    assert ['within 1° of θ_d from step', '192', '110'] in rows
+    assert ['θ within 1° of θ_d from step', '192', '110'] in rows
     rows = rows_of(command(path, '--band-deg', '5')[1])
-    assert ['within 5° of θ_d from step', '0', '110 (1°)'] in rows
+    assert ['θ within 5° of θ_d from step', '0', '110 (1°)'] in rows
 
 
 @pytest.mark.parametrize('band', ['0', '-1', '180', 'x', 'nan'])

@@ -7,8 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from tactile_push.paper import paper_figures
-from tactile_push.report.merit import FIELDS, PushHistory
+from tactile_push.paper import OTHER, paper_figures
+from tactile_push.report.columns import Columns
+from tactile_push.report.merit import FIELDS, KNOWN, known_step, plant_object, push_figures
 
 BAND = 0.05
 PERIOD = 0.1
@@ -19,7 +20,6 @@ CONTACT_SILENT, WORKSPACE_LIMIT, TICKS_LOST = 1, 3, 5
 
 def figures_of(rows, l=None, pushed=None, drop=()):
     """Return the figures of states that are given by what is special about them."""
-    history = PushHistory(BAND, l, pushed)
     usual = {
         'theta': 0.0,
         'theta_desired': 0.0,
@@ -32,12 +32,12 @@ def figures_of(rows, l=None, pushed=None, drop=()):
         'stop_reason': 0,
         'ticks_lost': 0,
     }
+    states = Columns()
     for k, row in enumerate(rows):
         values = {**usual, 'ticks': k + 1, **row}
-        time = k * PERIOD
         kept = {name: float(value) for name, value in values.items() if name not in drop}
-        history.add(time, 1000.0 + time, kept)
-    return history.figures()
+        states.add(k * PERIOD, {'stamp': 1000.0 + k * PERIOD, **kept})
+    return push_figures(states.table(), BAND, l, pushed)
 
 
 def columns(**values):
@@ -176,7 +176,7 @@ def test_nothing_at_all():
 
 
 @pytest.mark.parametrize('settled', [0, 1, 4095, 4096, 4097, 8192, 8999])
-def test_long_runs_are_evaluated_piece_by_piece_with_the_same_result(settled):
+def test_figures_of_long_runs(settled):
     count = 9001
     random = np.random.default_rng(settled)
     theta = random.uniform(-0.04, 0.04, count)
@@ -207,3 +207,61 @@ def test_paper_is_beside_what_it_tells_of():
     assert paper_figures(0.0, 'block') is None
     assert paper_figures(math.radians(-10.0), 'disk') is None
     assert paper_figures(math.radians(20.0), None) is None
+    assert paper_figures(math.radians(-10.0), OTHER) is None
+
+
+@pytest.mark.parametrize(
+    ('plant', 'pushed', 'l'),
+    [
+        ({}, None, None),
+        ({'object': 'block', 'edge_length': 0.05, 'edge_to_cm': 0.02375}, 'block', 0.02375),
+        ({'object': 'block', 'edge_length': 0.08, 'edge_to_cm': 0.02375}, OTHER, 0.02375),
+        ({'object': 'block', 'edge_length': 0.05, 'edge_to_cm': 0.03}, OTHER, 0.03),
+        ({'object': 'block', 'edge_to_cm': math.nan}, OTHER, None),
+        ({'object': 'disk', 'edge_to_cm': 0.03, 'disk_radius': 0.0285}, 'disk', 0.0285),
+        ({'object': 'disk', 'disk_radius': 0.03}, OTHER, 0.03),
+        ({'object': 'disk'}, 'disk', None),
+        ({'object': 7}, OTHER, None),
+    ],
+)
+def test_object_of_the_plant_is_the_papers_only_with_its_sizes(plant, pushed, l):
+    assert plant_object(plant) == (pushed, l)
+
+
+NARROW, WIDE = KNOWN, 1.01 * KNOWN
+
+
+@pytest.mark.parametrize(
+    ('widths', 'step'),
+    [
+        ([WIDE, WIDE, NARROW, NARROW], 2),
+        ([NARROW, NARROW, NARROW, NARROW], 0),
+        ([WIDE, NARROW, WIDE, NARROW], 3),  # what is forgotten was not known for good
+        ([NARROW, NARROW, NARROW, WIDE], None),
+        ([NARROW, math.nan, NARROW, NARROW], 2),
+    ],
+)
+def test_step_is_the_first_of_those_that_stay_narrow(widths, step):
+    times = [0.1, 0.2, 0.3, 0.4]
+    assert known_step(times, times, widths) == step
+
+
+def test_only_steps_of_the_law_count():
+    told = [0.1, 0.2, 0.3, 0.4, 0.5]
+    widths = [WIDE, NARROW, WIDE, NARROW, WIDE]
+    # Between the steps 0.2 and 0.4 the finger was held; after them, too.
+    assert known_step([0.1, 0.2, 0.4], told, widths) == 1
+
+
+def test_of_a_step_without_an_estimate_nothing_is_known():
+    assert known_step([0.1, 0.2, 0.3], [0.3], [NARROW]) == 2
+    assert known_step([0.1, 0.2, 0.3], [0.1, 0.3], [NARROW, NARROW]) == 2
+    assert known_step([0.1, 0.2, 0.3], [], []) is None
+
+
+def test_last_steps_may_not_be_told_of_yet():
+    assert known_step([0.1, 0.2, 0.3], [0.1, 0.2], [WIDE, NARROW]) == 1
+
+
+def test_without_steps_nothing_is_known():
+    assert known_step([], [], []) is None

@@ -105,7 +105,7 @@ def test_outcome_has_what_follows_from_the_states(run):
     angles = [math.degrees(phi(t)) for t in last]
     expected = f'{min(angles):.1f} to {max(angles):.1f}'
     assert outcome['φ from step 74 [°]'][0].replace('\u00a0', ' ') == expected
-    assert outcome['longest silence of the contact [s]'] == ('0.90', '')
+    assert outcome['longest silence of the contact [s]'] == ('0.900 at 6.900 s', '')
     assert outcome['stops'] == ('contact silent 1×', '')
 
 

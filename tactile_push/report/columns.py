@@ -1,54 +1,96 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""The topics of a bag that a report needs, as columns."""
+"""What a bag says, as columns of numbers."""
 
+import json
 import math
 from array import array
-from collections import Counter, defaultdict
-from collections.abc import Callable, Mapping
+from collections import defaultdict
+from collections.abc import Callable, Mapping, Set
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from tactile_push.bags import BagError, BagReader
+from tactile_push.interface import (
+    CONTACT,
+    CONTROLLER_STATE,
+    DIAGNOSTICS,
+    GEOMETRY_STATE,
+    JOINT_STATE_TYPE,
+    OBJECT_POSE,
+    PARAMETERS_NOTE,
+    SENSING_STATE,
+    TACTILE,
+    TOPICS,
+    TRUE_POSE,
+    TRUE_STATE,
+    fingers,
+)
 from tactile_push.pipeline.orientation import yaw_of_quaternion
 from tactile_push.report.data import ERROR, WARNING
 from tactile_push.report.episodes import Label
-from tactile_push.report.merit import FIELDS
 
-JOINTS, POSE = 'sensor_msgs/msg/JointState', 'geometry_msgs/msg/PoseStamped'
-UNSURE_POSE = 'geometry_msgs/msg/PoseWithCovarianceStamped'
-STATE, TRUTH, TRUE_POSE = 'push_controller/state', 'ground_truth/state', 'ground_truth/object_pose'
-READINGS, SENSING, ESTIMATE = 'contact_geometry/state', 'active_sensing/state', 'object_pose'
-TACTILE, CONTACT = 'tactile', 'contact'
-TYPES = {
-    STATE: JOINTS,
-    TRUTH: JOINTS,
-    READINGS: JOINTS,
-    SENSING: JOINTS,
-    TRUE_POSE: POSE,
-    TACTILE: JOINTS,
-    CONTACT: POSE,
-    ESTIMATE: UNSURE_POSE,
-}
-# What is taken of a joint state; all of a pose.
-NAMES = {
-    STATE: {*FIELDS, 'finger_x'},
-    TRUTH: {'theta', 'phi', 'd', 'v_x', 'finger_x', 'belt_travel'},
-    READINGS: {'refusal'},
-    SENSING: {'d', 'd_lower', 'd_upper', 'd_least', 'd_most', 'contradiction'},
-    TACTILE: set(),
-}
-DIAGNOSTICS, DIAGNOSTICS_TYPE = '/diagnostics', 'diagnostic_msgs/msg/DiagnosticArray'
+# The topics of a finger that a report shows.
+SHOWN = (
+    CONTROLLER_STATE,
+    TRUE_STATE,
+    GEOMETRY_STATE,
+    SENSING_STATE,
+    TRUE_POSE,
+    TACTILE,
+    CONTACT,
+    OBJECT_POSE,
+)
+# What is taken of their JointState messages: of those that are as fast as the sensor no more than
+# is shown.
+TAKEN: Mapping[str, Set[str]] = {
+    topic: frozenset(TOPICS[topic].field_names)
+    for topic in SHOWN
+    if TOPICS[topic].type_name == JOINT_STATE_TYPE
+} | {TACTILE: frozenset(), GEOMETRY_STATE: frozenset(['refusal'])}
 LEVELS = (None, WARNING, ERROR, ERROR)  # of diagnostics: ok, warn, error, stale
 PROGRESS_EVERY = 1000  # messages
 FAR = 10.0  # between stamp and log time: the stamp is of another clock [s]
 
-Table = dict[str, npt.NDArray[np.float64]]
+Column = npt.NDArray[np.float64]
+Table = dict[str, Column]
 """Columns by name; 'time' counts from the start of the bag [s] and does not decrease."""
 Statuses = dict[str, list[tuple[float, Label | None]]]
 """When and what the diagnostics said, by name."""
+
+
+def node_parameters(bag: BagReader) -> dict[str, dict[str, Any]] | None:
+    """Return the parameters that were recorded in a bag.
+
+    Parameters
+    ----------
+    bag : BagReader
+        The bag.
+
+    Returns
+    -------
+    dict or None
+        Node to values; None if none were recorded.
+
+    Raises
+    ------
+    ValueError
+        If they make no sense.
+    """
+    text = bag.notes.get(PARAMETERS_NOTE)
+    if text is None:
+        return None
+    try:
+        parameters = json.loads(text)
+    except ValueError:
+        parameters = None
+    if not isinstance(parameters, dict) or not all(
+        isinstance(values, dict) for values in parameters.values()
+    ):
+        raise ValueError('the recorded parameters cannot be read: expected JSON, node to values')
+    return parameters
 
 
 def namespaces(bag: BagReader) -> list[str]:
@@ -69,14 +111,10 @@ def namespaces(bag: BagReader) -> list[str]:
     BagError
         If there is none.
     """
-    found: Counter[str] = Counter()
-    for topic, count in bag.counts.items():
-        own = next((own for own in TYPES if count and topic.endswith(f'/{own}')), None)
-        if own is not None:
-            found[topic.removesuffix(f'/{own}')] += 1
+    found = fingers([topic for topic, count in bag.counts.items() if count], SHOWN)
     if not found:
-        raise BagError(f'{bag.path}: nothing to report, expected messages on {", ".join(TYPES)}')
-    return sorted(found, key=lambda name: (-found[name], name))
+        raise BagError(f'{bag.path}: nothing to report, expected messages on {", ".join(SHOWN)}')
+    return sorted(found, key=lambda name: (-len(found[name].intersection(SHOWN)), name))
 
 
 def topics_of(bag: BagReader, namespace: str) -> dict[str, str]:
@@ -87,31 +125,33 @@ def topics_of(bag: BagReader, namespace: str) -> dict[str, str]:
     bag : BagReader
         The bag.
     namespace : str
-        Of the topics.
+        Namespace of the finger.
 
     Returns
     -------
     dict of str to str
-        Their names within the namespace, by full name; those that the bag has.
+        Relative names of the topics that the bag has, by full name.
 
     Raises
     ------
     BagError
         If one has another type than expected.
     """
-    wanted = {f'{namespace}/{own}': own for own in TYPES} | {DIAGNOSTICS: DIAGNOSTICS}
+    wanted = {f'{namespace}/{own}': own for own in SHOWN} | {DIAGNOSTICS: DIAGNOSTICS}
     there = {topic: own for topic, own in wanted.items() if topic in bag.topics}
     for topic, own in there.items():
-        expected, found = TYPES.get(own, DIAGNOSTICS_TYPE), bag.topics[topic].type_name
+        expected, found = TOPICS[own].type_name, bag.topics[topic].type_name
         if found != expected:
             raise BagError(f'{bag.path}: {topic}: expected {expected}, got {found}')
     return there
 
 
 def read_tables(
-    bag: BagReader, topics: Mapping[str, str], progress: Callable[[int], None]
+    bag: BagReader,
+    topics: Mapping[str, str],
+    progress: Callable[[int], None] = lambda count: None,
 ) -> tuple[Mapping[str, Table], Statuses]:
-    """Read the topics.
+    """Read topics into columns.
 
     Parameters
     ----------
@@ -119,13 +159,13 @@ def read_tables(
         The bag.
     topics : mapping of str to str
         The topics, as `topics_of` gives them.
-    progress : callable
-        Told now and then how many messages are read.
+    progress : callable, optional
+        Told now and then how many messages have been read.
 
     Returns
     -------
     tables : mapping of str to dict
-        The columns by the topic's name within the namespace, of those that have messages.
+        The columns of the topics that have messages, by relative name.
     statuses : dict
         The diagnostics.
 
@@ -134,7 +174,7 @@ def read_tables(
     BagError
         If a message does not decode.
     """
-    columns: dict[str, _Columns] = defaultdict(_Columns)
+    columns: dict[str, Columns] = defaultdict(Columns)
     statuses: Statuses = defaultdict(list)
     for done, message in enumerate(bag.messages(topics), 1):
         own = topics[message.topic]
@@ -144,7 +184,7 @@ def read_tables(
             for status in content.status:
                 statuses[status.name].append((time, _status_label(status)))
         else:
-            values = _positions(content, NAMES[own]) if own in NAMES else _pose(content)
+            values = positions(content, TAKEN[own]) if own in TAKEN else _pose(content)
             columns[own].add(time, values)
         if done % PROGRESS_EVERY == 0:
             progress(done)
@@ -152,7 +192,7 @@ def read_tables(
 
 
 def _time(stamp: Any, log_time: int, start: int) -> float:
-    """Give the time of a message from the start of the bag [s]."""
+    """Return the time of a message from the start of the bag [s]."""
     stamped = (stamp.sec * 1_000_000_000 + stamp.nanosec - start) * 1e-9
     logged = (log_time - start) * 1e-9
     return stamped if abs(stamped - logged) <= FAR else logged
@@ -163,9 +203,10 @@ def _status_label(status: Any) -> Label | None:
     return None if level is None else (level, status.message)
 
 
-def _positions(content: Any, names: set[str]) -> dict[str, float]:
+def positions(content: Any, taken: Set[str]) -> dict[str, float]:
+    """Return the positions of a JointState message by those names that are taken."""
     pairs = zip(content.name, content.position, strict=False)
-    return {name: value for name, value in pairs if name in names}
+    return {name: value for name, value in pairs if name in taken}
 
 
 def _pose(content: Any) -> dict[str, float]:
@@ -175,15 +216,15 @@ def _pose(content: Any) -> dict[str, float]:
     return {'x': pose.position.x, 'y': pose.position.y, 'yaw': yaw}
 
 
-class _Columns:
-    """Values by name as they come: eight bytes each, for a bag may have very many."""
+class Columns:
+    """Values by name, eight bytes each: a bag may have very many."""
 
     def __init__(self) -> None:
         self._time = array('d')
         self._columns: dict[str, array[float]] = {}
 
     def add(self, time: float, values: Mapping[str, float]) -> None:
-        """Take a row; one that lacks a name that others have gets NaN there."""
+        """Take a row; it gets NaN where it lacks a name that others have."""
         for name in values.keys() - self._columns.keys():
             self._columns[name] = array('d', [math.nan]) * len(self._time)
         self._time.append(time)
@@ -191,7 +232,7 @@ class _Columns:
             column.append(values.get(name, math.nan))
 
     def table(self) -> Table:
-        """Give the columns in the order of time."""
+        """Return the columns in the order of time."""
         columns = {'time': self._time, **self._columns}
         order = np.argsort(np.array(self._time), kind='stable')
         return {name: np.array(column)[order] for name, column in columns.items()}
