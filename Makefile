@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
 # make demo: run the demonstration; make test: run all tests; make docs: build the documentation;
 # make bench: measure speeds; make faults: inject every fault; make fuzz: spoil every input;
 # make soak: run for long.

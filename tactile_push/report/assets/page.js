@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 The tactile_push authors
+// SPDX-License-Identifier: Apache-2.0
 // The page of `tactile_push report`: what it shows, and the time that plots and view share.
 'use strict';
 

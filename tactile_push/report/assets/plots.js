@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 The tactile_push authors
+// SPDX-License-Identifier: Apache-2.0
 // Plots against time, by Plotly.
 
 const MARGIN = { l: 54, r: 10, b: 42 };

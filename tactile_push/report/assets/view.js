@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: 2026 The tactile_push authors
+// SPDX-License-Identifier: Apache-2.0
 // The view from above, and the numbers beside it.
 
 const RAY = 26; // length of the contact normal, of a view that is 100 high
