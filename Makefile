@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-# make demo: run the demonstration; make test: run all tests; make docs: build the documentation;
-# make bench: measure speeds; make faults: inject every fault; make fuzz: spoil every input;
-# make soak: run for long.
+# make demo: run the demonstration; make test: run all tests; make test-quick: unit tests alone;
+# make lint: check without testing; make docs: build the documentation; make bench: measure speeds;
+# make faults: inject every fault; make fuzz: spoil every input; make soak: run for long.
 # Each sets up .venv the first time.
 
 PYTHON ?= python3
@@ -12,13 +12,23 @@ READY := $(VENV)/ready
 TEST_READY := $(VENV)/ready-to-test
 INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable
 
-.PHONY: demo test docs lint bench faults fuzz soak clean
+# Tests of real nodes and messages, which unit tests are not.
+GRAPH := test/faults test/fuzzing test/nodes test/playing test/recording test/soaking test/system \
+  test/testing
+# Two processes: while one waits for nodes the other computes. A file's tests share what was started
+# for them, so each process begins with a half of the files.
+PYTEST := $(BIN)/python -m pytest --numprocesses 2 --dist worksteal
+
+.PHONY: demo test test-quick docs lint bench faults fuzz soak clean
 
 demo: $(READY)
 	$(BIN)/tactile_push demo
 
 test: lint
-	$(BIN)/python -m pytest
+	$(PYTEST)
+
+test-quick: $(TEST_READY)
+	$(PYTEST) $(GRAPH:%=--ignore=%)
 
 docs: $(TEST_READY)
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet docs out/docs
@@ -41,6 +51,8 @@ lint: $(TEST_READY)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/lint-imports
+	$(BIN)/reuse lint --quiet
 
 $(READY): setup.py setup.cfg pyproject.toml
 	@command -v $(PYTHON) >/dev/null || \
@@ -50,11 +62,11 @@ $(READY): setup.py setup.cfg pyproject.toml
 	@$(PYTHON) -c 'import venv, ensurepip' 2>/dev/null || \
 	  { echo "make: $(PYTHON) has no venv module; install it (Debian, Ubuntu: apt install python3-venv)" >&2; exit 2; }
 	$(PYTHON) -m venv $(VENV)
-	$(INSTALL) .
+	$(INSTALL) '.[ros]'
 	touch $@
 
 $(TEST_READY): $(READY)
-	$(INSTALL) '.[docs,test]'
+	$(INSTALL) '.[docs,ros,test]'
 	touch $@
 
 clean:

@@ -12,6 +12,9 @@ NAME = 'tactile_push'
 # Read without importing the package, which needs more than the build has.
 NODES = runpy.run_path(str(Path(__file__).parent / NAME / 'interface.py'))['NODES']
 
+# Wheels of ROS 2 exist for these machines alone; elsewhere ROS comes from a workspace.
+WHEELS = "platform_system == 'Linux' and platform_machine == 'x86_64' and python_version < '3.14'"
+
 setup(
     name=NAME,
     version='0.1.0',
@@ -38,8 +41,6 @@ setup(
         'pyserial>=3.5,<4',
         'pyyaml>=6,<7',
         'rich>=13,<16',
-        'ros-jazzy-common-interfaces>=5.3,<6',
-        'ros-jazzy-rclpy[fastrtps]>=7.1,<8',
         'zstandard>=0.22,<1',
     ],
     extras_require={
@@ -48,15 +49,23 @@ setup(
             'sphinx>=7.2,<10',
             'sphinx-rtd-theme>=2,<4',
         ],
+        'ros': [
+            f'ros-jazzy-common-interfaces>=5.3,<6; {WHEELS}',
+            f'ros-jazzy-rclpy[fastrtps]>=7.1,<8; {WHEELS}',
+        ],
         'test': [
             'colcon-core>=0.18,<1',
             'colcon-python-setup-py>=0.2.9,<1',
             'colcon-ros>=0.5,<1',
             'hypothesis>=6,<7',
+            'import-linter>=2.1,<3',
             'mypy>=1.13,<3',
+            'numpydoc>=1.8,<2',
             'playwright>=1.45,<2',
             'pytest>=8,<10',
             'pytest-benchmark>=5,<6',
+            'pytest-xdist>=3.6,<4',
+            'reuse>=5,<7',
             'rosbags>=0.10,<1',
             'ruff>=0.8,<1',
             'setuptools<80',

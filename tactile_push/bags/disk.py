@@ -74,7 +74,7 @@ class DiskFile:
     def __init__(self, disk: Disk, path: Path) -> None:
         self._disk = disk
         self._path = path
-        flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC
+        flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, 'O_BINARY', 0)
         self._descriptor = os.open(path, flags, 0o666)
         disk.descriptors.add(self._descriptor)
         self._length = self._flushed = 0  # as seen by whoever fills the file
@@ -160,7 +160,7 @@ def write_whole(path: Path, text: str) -> None:
 def sync_directory(path: Path) -> None:
     """Put the entries of a directory onto the disk, if its file system can do that."""
     with contextlib.suppress(OSError):
-        descriptor = os.open(path, os.O_RDONLY | os.O_DIRECTORY)
+        descriptor = os.open(path, os.O_RDONLY | getattr(os, 'O_DIRECTORY', 0))
         try:
             os.fsync(descriptor)
         finally:

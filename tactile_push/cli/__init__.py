@@ -11,6 +11,7 @@ from types import FrameType
 from typing import NoReturn
 
 from tactile_push.cli.arguments import Commands, Parser, Refused
+from tactile_push.ros import ros_is_missing
 
 # Exit statuses as shells give them to programs that SIGINT and SIGPIPE end.
 INTERRUPTED, READ_ENOUGH = 130, 141
@@ -43,9 +44,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         name, options = _parse(arguments)
         command = f'tactile_push {name}'
-        for signum in (signal.SIGTERM, signal.SIGHUP):
+        for signum in (signal.SIGTERM, getattr(signal, 'SIGHUP', signal.SIGTERM)):
             if signal.getsignal(signum) != signal.SIG_IGN:  # as nohup asks
                 signal.signal(signum, _terminate)
+        if vars(options).pop('ros', False) and ros_is_missing(command):
+            return 2
         status = options.run(options)
         sys.stdout.flush()
         return INTERRUPTED if interrupted else status

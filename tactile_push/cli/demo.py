@@ -32,7 +32,7 @@ def add(commands: Commands) -> None:
         help='folder for history.png and the bags block/ and disk/ (default: out)',
     )
     demo.add_argument('--json', action='store_true', help='print one JSON object, SI units')
-    demo.set_defaults(run=_demo)
+    demo.set_defaults(run=_demo, ros=True)
 
 
 def _demo(options: argparse.Namespace) -> int:

@@ -43,7 +43,7 @@ def add(commands: Commands) -> None:
     option('--topics', nargs='+', metavar='TOPIC', help='play only these')
     option('--remap', nargs='+', metavar='OLD:=NEW', help='publish topics under other names')
     option('--start-paused', action='store_true', help='begin with a pause')
-    play.set_defaults(run=_play)
+    play.set_defaults(run=_play, ros=True)
 
 
 def _play(options: argparse.Namespace) -> NoReturn:

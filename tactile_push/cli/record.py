@@ -52,7 +52,7 @@ def add(commands: Commands) -> None:
         action='store_true',
         help='take the time from /clock; nothing is recorded until it runs',
     )
-    record.set_defaults(run=_record)
+    record.set_defaults(run=_record, ros=True)
 
 
 def _record(options: argparse.Namespace) -> int:

@@ -8,9 +8,17 @@ import sys
 from pathlib import Path
 from types import FrameType
 
+from tactile_push.ros import ros_is_missing
+
 
 def _end_at_once(signum: int, frame: FrameType | None) -> None:
     os._exit(0)
+
+
+def _name() -> str:
+    """Return the name of the node that this process is about to be."""
+    modules = (word for word in sys.orig_argv if 'tactile_push.nodes.' in word)
+    return Path(next(modules, sys.argv[0])).name.rpartition('.')[2]
 
 
 def _is_imported_by_a_node() -> bool:
@@ -20,6 +28,8 @@ def _is_imported_by_a_node() -> bool:
 
 
 if _is_imported_by_a_node():
+    if ros_is_missing(_name()):
+        sys.exit(2)
     # A node that is interrupted while it still imports has nothing to stop and nothing to say.
     signal.signal(signal.SIGINT, _end_at_once)
     signal.signal(signal.SIGTERM, _end_at_once)

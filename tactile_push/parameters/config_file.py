@@ -2,28 +2,33 @@
 # SPDX-License-Identifier: Apache-2.0
 """Finds the files of config/, in a checkout or wherever they were installed."""
 
-import os
-import sys
+import sysconfig
 from pathlib import Path
-
-from ament_index_python.packages import get_package_share_directory
 
 
 def config_file(name: str) -> Path:
-    """Find a configuration file: beside the package in a checkout, else where it was installed.
+    """Return the path of one of the package's configuration files.
 
     Parameters
     ----------
     name : str
-        Name of the file in config/.
+        Its name in config/.
 
     Returns
     -------
-    Path
-        Where it is.
+    path
+        The file in the checkout, else under the prefix that pip or colcon installed into.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
     """
-    beside = Path(__file__).resolve().parents[2] / 'config' / name
-    if beside.exists():
-        return beside
-    os.environ.setdefault('AMENT_PREFIX_PATH', sys.prefix)  # what pip installs into
-    return Path(get_package_share_directory('tactile_push')) / 'config' / name
+    here = Path(__file__).resolve()
+    shares = [prefix / 'share/tactile_push' for prefix in here.parents]
+    shares.append(Path(sysconfig.get_path('data')) / 'share/tactile_push')
+    for folder in (here.parents[2], *shares):
+        path = folder / 'config' / name
+        if path.exists():
+            return path
+    raise FileNotFoundError(f'{name}: expected in share/tactile_push/config, is not installed')

@@ -300,7 +300,9 @@ def rollouts(
         _run_many(*borders, runs, bodies, periods, radius, band, histories, ends, stop)
 
     stop = np.zeros(1, dtype=np.int64)  # what the user's interrupt sets
-    workers = len(os.sched_getaffinity(0))
+    workers = (
+        len(os.sched_getaffinity(0)) if hasattr(os, 'sched_getaffinity') else os.cpu_count() or 1
+    )
     borders = np.linspace(0, count, min(count, workers * CHUNKS_PER_WORKER) + 1).astype(int)
     with ThreadPoolExecutor(workers) as pool:
         try:

@@ -5,9 +5,7 @@
 import contextlib
 import errno
 import os
-import pty
 import socket
-import tty
 from typing import Protocol
 
 from tactile_push.devices.device import socket_address
@@ -129,6 +127,9 @@ class PseudoTerminal:
     """
 
     def __init__(self, path: str) -> None:
+        import pty  # which not every system has, unlike the rest of the module
+        import tty
+
         if os.path.exists(path) or (os.path.lexists(path) and not os.path.islink(path)):
             raise OSError(errno.EEXIST, f'{path}: {os.strerror(errno.EEXIST)}')
         if os.path.lexists(path):

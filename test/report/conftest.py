@@ -6,7 +6,6 @@ import os
 import shutil
 
 import pytest
-from playwright.sync_api import sync_playwright
 
 NAMES = ('chromium', 'chromium-browser', 'google-chrome')
 # Alone: without accounts, updates and whatever else it asks the network for.
@@ -24,13 +23,14 @@ ARGUMENTS = (
 @pytest.fixture(scope='module')
 def browser():
     """Return a headless Chromium that ends with the module's tests."""
+    playwright = pytest.importorskip('playwright.sync_api', reason='pip install playwright')
     executable = next(filter(None, map(shutil.which, NAMES)), None)
     if executable is None:
-        reason = f'no browser: none of {", ".join(NAMES)} is installed'
+        reason = f'no browser: install {", ".join(NAMES[:-1])} or {NAMES[-1]}'
         if os.environ.get('CI') == 'true':
             pytest.fail(reason)
         pytest.skip(reason)
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=executable, args=ARGUMENTS)
+    with playwright.sync_playwright() as started:
+        browser = started.chromium.launch(executable_path=executable, args=ARGUMENTS)
         yield browser
         browser.close()
