@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compilation of the hot mathematics by numba, cached on disk."""
 
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import numba
 import numpy as np
 import numpy.typing as npt
+from numba.core import event
 
 Array = npt.NDArray[np.float64]
 
@@ -23,6 +25,37 @@ equation = numba.njit(**_OPTIONS, fastmath=_REARRANGED, forceinline=True)
 
 reduction = numba.njit(**_OPTIONS, fastmath=_REARRANGED | {'reassoc'})
 """Decorator for sums over many points, which may be taken in any order."""
+
+
+@contextmanager
+def compilation_announced(announce: Callable[[], None]) -> Iterator[None]:
+    """Call a function before the first compilation in a block, if there is one.
+
+    There is none if the machine code of all that the block calls is in the cache.
+
+    Parameters
+    ----------
+    announce : callable
+        Says that compilation, which takes seconds, begins.
+    """
+    with event.install_listener('numba:compile', _Once(announce)):
+        yield
+
+
+class _Once(event.Listener):
+    """Calls a function at the first event."""
+
+    def __init__(self, announce: Callable[[], None]) -> None:
+        self._announce: Callable[[], None] | None = announce
+
+    def on_start(self, event: event.Event) -> None:
+        """Announce the first compilation."""
+        announce, self._announce = self._announce, None
+        if announce is not None:
+            announce()
+
+    def on_end(self, event: event.Event) -> None:
+        """Let a compilation end in silence."""
 
 
 def _forget_outdated(folder: Path) -> None:

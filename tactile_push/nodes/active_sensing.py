@@ -14,6 +14,7 @@ from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
 from tactile_push.interface import CONTROLLER_STATE, OBJECT_POSE, SENSING_MARKERS, SENSING_STATE
+from tactile_push.nodes.ros.compiling import compiling
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.estimate_markers import estimate_markers
 from tactile_push.nodes.ros.messages import publish, stamp_of
@@ -44,23 +45,24 @@ class ActiveSensingNode(Node):
     def __init__(self) -> None:
         super().__init__(self.NAME)
         self._settings = p = declare(self, self.PARAMETERS)
-        try:
-            sensing, compiled = make_sensing(p), make_sensing(p)
-        except ValueError as error:
-            raise ConfigurationError(f'parameter {error}') from None
-        for tick in range(2):  # compiles now what would be compiled at the first reading
-            compiled.tick(0.1 * tick, 0.0, 0.0, 0.0)
+        self._counted = Counter(ticks=0, readings=0)
+        self._diagnostics = Diagnostics(self, self._health, lambda: self._counted)
+        with compiling(self, self._diagnostics):
+            try:
+                sensing, compiled = make_sensing(p), make_sensing(p)
+            except ValueError as error:
+                raise ConfigurationError(f'parameter {error}') from None
+            for tick in range(2):  # compiles now what would be compiled at the first reading
+                compiled.tick(0.1 * tick, 0.0, 0.0, 0.0)
         self._sensing = Sensing(sensing, NodeTime(self).seconds)
         self._sensed: Sensed | None = None
         self._ticked_at = 0.0  # by a clock that cannot be set [s]
-        self._counted = Counter(ticks=0, readings=0)
         self._outputs = {
             SENSING_STATE: self.create_publisher(JointState, SENSING_STATE, PUBLISHED),
             OBJECT_POSE: self.create_publisher(PoseWithCovarianceStamped, OBJECT_POSE, PUBLISHED),
         }
         self._markers = self.create_publisher(MarkerArray, SENSING_MARKERS, PUBLISHED)
         self.create_subscription(JointState, CONTROLLER_STATE, self._on_tick, PUBLISHED)
-        self._diagnostics = Diagnostics(self, self._health, lambda: self._counted)
 
     def _on_tick(self, message: JointState) -> None:
         try:

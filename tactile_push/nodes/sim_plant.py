@@ -18,6 +18,7 @@ from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
 from tactile_push.devices import Sentence, encode
+from tactile_push.nodes.ros.compiling import compiling
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.markers import rig_markers
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
@@ -51,13 +52,16 @@ class SimPlant(Node):
                 'parameter real_time_factor: expected 1.0 unless publish_clock is true, '
                 f'got {p.real_time_factor}'
             )
-        try:
-            config, beginning = rig_config(p), faults(p)
-        except ValueError as error:
-            raise ConfigurationError(str(error)) from None
-        self._rig = Rig(config, beginning)
+        self._counts: Counter[str] = Counter({'readings sent': 0, 'commands': 0})
+        self._diagnostics = Diagnostics(self, self._health, lambda: self._counts)
+        with compiling(self, self._diagnostics):
+            try:
+                config, beginning = rig_config(p), faults(p)
+            except ValueError as error:
+                raise ConfigurationError(str(error)) from None
+            self._rig = Rig(config, beginning)
+            Rig(config).step(0.0, 1.0)  # compiles the mechanics before time begins
         self._readout = Readout(beginning.sensor, p.seed)
-        Rig(config).step(0.0, 1.0)  # compiles the mechanics before time begins
         try:
             self._device = serve(p.device)
         except ValueError as error:
@@ -68,7 +72,6 @@ class SimPlant(Node):
         self._pace = Pace(p.real_time_factor, 1.0 / p.control_rate, p.command_timeout)
         self._steps = 0
         self._sequence = 0
-        self._counts: Counter[str] = Counter({'readings sent': 0, 'commands': 0})
         self._awaited: Reading | None = None  # the last reading, if a contact has to follow
         self._time = 0.0
         self._last_wall = time.monotonic()
@@ -77,7 +80,6 @@ class SimPlant(Node):
         self._last_command: float | None = None
         self._commanders = 0
         self._create_topics()
-        self._diagnostics = Diagnostics(self, self._health, lambda: self._counts)
         steady_clock = NodeClock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(self._period / p.real_time_factor, self._on_timer, clock=steady_clock)
         self.create_timer(LOOK_PERIOD, self._count_commanders, clock=steady_clock)

@@ -79,6 +79,11 @@ class Diagnostics:
         steady_clock = Clock(clock_type=ClockType.STEADY_TIME)
         node.create_timer(PERIOD / LOOKS, self._on_timer, clock=steady_clock)
 
+    def announce(self, health: Health) -> None:
+        """Publish a health that the node has before its callbacks run."""
+        self._note(health)
+        self._publish(health)
+
     def update(self) -> None:
         """Publish at once if the level is another than last time."""
         health = self._look()
@@ -114,9 +119,12 @@ class Diagnostics:
 
     def _look(self) -> Health:
         health = self._health()
+        self._note(health)
+        return health
+
+    def _note(self, health: Health) -> None:
         if health.message != self._message:
             self._message, self._since = health.message, time.monotonic()
-        return health
 
     def _publish(self, health: Health) -> None:
         self._level = health.level

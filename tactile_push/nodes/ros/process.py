@@ -41,6 +41,7 @@ def run(node_class: type[Node]) -> int:
         Exit status: 0 done, 1 a file or device failed the node, 2 bad input.
     """
     if {'-h', '--help'} & set(sys.argv[1:]):
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # its reader may stop early, such as `head`
         print(_help(node_class))
         return 0
     stopping = False

@@ -181,6 +181,14 @@ def test_periodic_report_counts_as_the_last_level(patient):
     assert levels(patient.sent) == [OK, ERROR]
 
 
+def test_health_of_a_node_that_does_not_run_yet_is_announced(patient):
+    patient.diagnostics.announce(Health(WARN, 'compiling'))
+    patient.diagnostics.announce(Health(WARN, 'compiling'))
+    assert [message.status[0].message for message in patient.sent] == ['compiling'] * 2
+    patient.diagnostics.update()
+    assert levels(patient.sent) == [WARN, WARN, OK]
+
+
 def test_values_are_empty_unless_given():
     assert dict(Health(OK, 'fine').values) == {}
 

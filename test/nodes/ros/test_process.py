@@ -236,6 +236,18 @@ def test_help_lists_every_parameter_with_default_and_unit(environment):
     assert max(map(len, lines)) < 200
 
 
+def test_help_whose_reader_has_read_enough_ends_in_silence(environment):
+    process = subprocess.Popen(
+        command('push_controller', '--help'),
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+    process.stdout.close()  # while the node still imports
+    _, err = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, err) == (-signal.SIGPIPE, b'')  # 141 in a shell
+
+
 def refused(environment, *arguments, node='contact_geometry'):
     """Return the one line with which a node refuses to start."""
     done = finish(environment, node, *arguments)
