@@ -13,7 +13,7 @@ author = 'The tactile_push authors'
 copyright = f'2026 {author}'
 
 extensions = ['myst_parser', 'sphinx.ext.autodoc', 'sphinx.ext.napoleon', 'sphinx_rtd_theme']
-exclude_patterns = ['_build']
+exclude_patterns = ['__*', 'README.md', 'CONTRIBUTING.md', 'CHANGELOG.rst']  # rosdoc2 adds these
 suppress_warnings = ['config.cache']
 
 html_theme = 'sphinx_rtd_theme'

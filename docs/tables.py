@@ -141,7 +141,8 @@ def parameters_page() -> str:
         for p in declared.declared():
             span = ', '.join(f'`{choice}`' for choice in p.choices)
             if isinstance(p.default, float) or type(p.default) is int:
-                span = f'{p.lower:g} to {p.upper:g}'
+                number = str if type(p.default) is int else '{:g}'.format
+                span = f'{number(p.lower)} to {number(p.upper)}'
             default = f'`{shown(p.default)}`' if p.default != '' else ''
             live = '' if p.read_only else 'yes'
             rows.append((f'`{p.name}`', default, p.unit, span, live, p.words))
