@@ -12,13 +12,13 @@ import yaml
 
 from tactile_push.bags.sources import BagError
 
-# libyaml's, where PyYAML has it, is ten times as fast.
+# libyaml's loader is ten times as fast, but not every PyYAML has it.
 _LOADER = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)
 
-# More than a bag of a thousand files and topics has [bytes].
+# Longer than that of a bag with a thousand files and topics [characters].
 _LARGEST = 1 << 24
 
-# The number that rosbag2 gives a file, and its kind.
+# Name, number and suffix that rosbag2 gives a file.
 _FILE_NAME = re.compile(r'(.*?)(\d*)\.mcap(\.zstd)?')
 
 
@@ -26,11 +26,11 @@ _FILE_NAME = re.compile(r'(.*?)(\d*)\.mcap(\.zstd)?')
 class BagMetadata:
     """The part of rosbag2's metadata that the MCAP files do not have themselves."""
 
-    files: tuple[str, ...] = ()
-    message_count: int = 0
-    end: int = 0
-    message_compression: str = ''
-    custom_data: dict[str, str] = field(default_factory=dict)
+    files: tuple[str, ...] = ()  # names, in their order
+    message_count: int = 0  # 0 if unknown
+    end: int = 0  # last log time [ns]
+    message_compression: str = ''  # with which each message is compressed
+    custom_data: dict[str, str] = field(default_factory=dict)  # notes on the bag
 
 
 def load_yaml(text: str) -> Any:
@@ -54,7 +54,7 @@ def parse_metadata(information: Any) -> BagMetadata:
             {str(key): str(value) for key, value in (information.get('custom_data') or {}).items()},
         )
     except (AttributeError, KeyError, TypeError, ValueError, OverflowError) as error:
-        raise ValueError(f'no rosbag2_bagfile_information as expected: {error!r}') from None
+        raise ValueError(f'bad rosbag2_bagfile_information: {error!r}') from None
 
 
 def read_metadata(folder: Path) -> BagMetadata:
@@ -66,10 +66,10 @@ def read_metadata(folder: Path) -> BagMetadata:
     with open(folder / 'metadata.yaml', encoding='utf-8') as stream:
         text = stream.read(_LARGEST + 1)
     if len(text) > _LARGEST:
-        raise ValueError(f'more than {_LARGEST} characters')
+        raise ValueError(f'expected at most {_LARGEST} characters, got more')
     content = load_yaml(text)
     if not isinstance(content, dict) or 'rosbag2_bagfile_information' not in content:
-        raise ValueError('no rosbag2_bagfile_information in it')
+        raise ValueError('expected rosbag2_bagfile_information, got something else')
     information = content['rosbag2_bagfile_information']
     metadata = parse_metadata(information)
     storage = information.get('storage_identifier')
@@ -95,7 +95,7 @@ def find_files(path: Path, metadata: BagMetadata, warn: Callable[[str], None]) -
     if not files:
         if any(file.suffix == '.db3' for file in path.iterdir()):
             raise BagError(_foreign(path, 'sqlite3'))
-        raise BagError(f'{path}: no bag, which would have at least one .mcap file')
+        raise BagError(f'{path}: expected a bag with at least one .mcap file, got none')
     for file in missing:
         warn(f'{file}: missing, though metadata.yaml names it')
     return files
@@ -110,6 +110,6 @@ def _by_number(file: Path) -> tuple[str, int, str]:
 
 def _foreign(path: Path, storage: object) -> str:
     return (
-        f'{path}: stored as {storage}, expected mcap: '
-        '`ros2 bag convert` with `storage_id: mcap` makes such a bag of it'
+        f'{path}: expected a bag stored as mcap, got {storage}: '
+        '`ros2 bag convert` with `storage_id: mcap` converts it'
     )

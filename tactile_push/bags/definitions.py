@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Message definitions in the form that a bag carries them: MCAP's `ros2msg` schema encoding.
+"""Message definitions as a bag stores them: MCAP's `ros2msg` schema encoding.
 
-A definition is the text of the .msg file, followed by that of every message it is made of, each
-behind a separator line, in the order in which rosbag2 writes them.
+A definition is the text of the .msg file, followed by the texts of the messages that it
+consists of, each after a separator line, in the order in which rosbag2 writes them.
 """
 
 import os
@@ -15,29 +15,13 @@ _SEPARATOR = '=' * 80
 
 _TYPE_NAME = re.compile(r'([A-Za-z0-9_]+)/(?:msg/)?([A-Za-z0-9_]+)')
 
-# The type that begins a line of a .msg file. Comments and bounded strings do not match; neither
-# names a message.
+# The type at the beginning of a line of a .msg file. Comments and bounded strings do not match:
+# they name no message.
 _FIELD_TYPE = re.compile(r'^[ \t]*([A-Za-z0-9_/]+)(?:\[[^\]]*\])?\s', re.MULTILINE)
 
-_PRIMITIVES = frozenset(
-    [
-        'bool',
-        'byte',
-        'char',
-        'float32',
-        'float64',
-        'int8',
-        'uint8',
-        'int16',
-        'uint16',
-        'int32',
-        'uint32',
-        'int64',
-        'uint64',
-        'string',
-        'wstring',
-    ]
-)
+_PRIMITIVES = {'bool', 'byte', 'char', 'float32', 'float64', 'string', 'wstring'} | {
+    f'{kind}{bits}' for kind in ('int', 'uint') for bits in (8, 16, 32, 64)
+}
 
 
 def schema_text(type_name: str) -> str:
@@ -80,7 +64,7 @@ def _read_definition(type_name: str) -> tuple[str, str]:
     """Return the package of a type and the text of its .msg file."""
     match = _TYPE_NAME.fullmatch(type_name)
     if match is None:
-        raise LookupError(f"'{type_name}' is no message type: expected package/msg/Type")
+        raise LookupError(f"expected a message type package/msg/Type, got '{type_name}'")
     package, name = match.groups()
     # Packages from PyPI lie in the Python environment, where no ament prefix points.
     ament_prefixes = os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep)

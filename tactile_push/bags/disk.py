@@ -10,8 +10,8 @@ from functools import partial
 from pathlib import Path
 from queue import Queue
 
-# Pieces that may wait for the disk; after that whoever fills a file waits, too. A piece is a chunk
-# of a bag at the most.
+# Pieces that may wait for the disk; with more, whoever fills a file waits too. A piece is at most a
+# chunk of a bag.
 _MOST_WAITING = 64
 
 
@@ -27,7 +27,7 @@ class Disk:
         self._error: OSError | None = None
         self._told = False
         self.descriptors: set[int] = set()
-        # Who forgets to close loses what waits, as if killed, rather than the end of the process.
+        # Without `close`, the process ends without what waits, as if killed, instead of hanging.
         self._thread = threading.Thread(target=self._run, name='disk', daemon=True)
         self._thread.start()
 

@@ -7,7 +7,7 @@ import struct
 
 from tactile_push.bags.reader import BagError, BagReader, Message
 
-# What comes before the first field of a definition: remarks, empty lines and constants.
+# Comments, empty lines and constants before the first field of a definition.
 _PREAMBLE = re.compile(r'(?:[ \t]*(?:#[^\n]*)?\n|[ \t]*\S+[ \t]+\w+[ \t]*=[^\n]*\n)*')
 _HEADER = re.compile(r'[ \t]*(?:std_msgs/(?:msg/)?)?Header[ \t]+\w+')
 
@@ -40,8 +40,8 @@ class HeaderStamps:
         except (IndexError, struct.error):
             at = (message.log_time - self._bag.start_time) * 1e-9
             raise BagError(
-                f'{self._bag.path}: the message of {message.topic} at {at:.6f} s has '
-                f'{len(message.data)} bytes, expected a header'
+                f'{self._bag.path}: expected a header in the message of {message.topic} at '
+                f'{at:.6f} s, got {len(message.data)} bytes'
             ) from None
         return sec * 10**9 + nanosec
 

@@ -103,7 +103,7 @@ class McapFile:
         if not MAGIC.startswith(start):
             raise BagError(f'{self.path}: expected an MCAP file, which begins with {MAGIC!r}')
         if len(start) < len(MAGIC):
-            warn(f'{self.path}: nothing was recorded: {len(start)} bytes, an empty bag has more')
+            warn(f'{self.path}: nothing was recorded: the file has {len(start)} bytes')
             return
         contents, trouble = None, ''
         try:

@@ -74,7 +74,7 @@ class _Scan:
                 return self._end(data)
             size = self._take(opcode, data)
         elif self._source.size is not None and self.offset + size > self._source.size:
-            return self._end(self._source.read(self.offset, size))
+            return self._end(header)
         self.offset += size
         return True
 
@@ -94,18 +94,22 @@ class _Scan:
             raise DamageError('a message outside of the chunks')
         return contents.survey(data, self.offset, len(data), False)
 
-    def _end(self, left: bytes) -> bool:
-        """Say what is lost with a record that the end of the file cuts off; return False."""
+    def _end(self, head: bytes) -> bool:
+        """Say what is lost with a record that the end of the file cuts off; return False.
+
+        `head` is what is left of the record, or its beginning.
+        """
         size = self._source.size
+        left = len(head) if size is None else size - self.offset
         if size is not None and left and self._source.read(size - len(MAGIC), len(MAGIC)) == MAGIC:
             raise DamageError('a record is longer than the file')
         lost = ''
-        if left[:1] == bytes([Opcode.CHUNK]) and (times := chunk_times(left)):
+        if head[:1] == bytes([Opcode.CHUNK]) and (times := chunk_times(head)):
             first, last = times
             seconds = (last - (self.contents.end if self.contents.counts else first)) * 1e-9
             lost = f', about {max(seconds, 0.0):.3f} s'
         self.losses = (
-            f'{len(left)} bytes from byte {self.offset} on{lost} at the end cannot be read'
+            f'{left} bytes from byte {self.offset} on{lost} at the end cannot be read'
             if left
             else 'what came after the last whole chunk is missing'
         )

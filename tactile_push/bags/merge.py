@@ -11,10 +11,10 @@ from operator import attrgetter
 
 from tactile_push.bags.mcap_file import Message
 
-# What overlapping batches may take together before some are forgotten and read again [bytes].
+# Memory for overlapping batches; beyond it, some are freed and read again later [bytes].
 _BUDGET = 1 << 25
 
-# What a message takes beside its data, roughly [bytes].
+# Rough memory of a message besides its data [bytes].
 _OVERHEAD = 200
 
 _BY_LOG_TIME = attrgetter('log_time')
@@ -47,7 +47,7 @@ def in_order(batches: Sequence[Batch]) -> Iterator[Message]:
         if not opened.size:
             opened.read()
             _forget_some(heap)
-        # Up to here no other batch has anything to say.
+        # No other batch has a message before this time.
         bound = waiting[0][1].start if waiting else 2**64
         for time, other, _ in heap[1:3]:
             bound = min(bound, time + (number < other))
@@ -79,11 +79,11 @@ class _OpenBatch:
 
     @property
     def is_done(self) -> bool:
-        """Whether all has been taken."""
+        """Whether all its messages have been taken."""
         return self._position >= self._count
 
     def take(self, bound: int) -> list[Message]:
-        """Return the next messages, those before a time."""
+        """Return the next messages, up to a time [ns]."""
         messages, start = self._messages, self._position
         end = self._count
         if end and messages[-1].log_time >= bound:

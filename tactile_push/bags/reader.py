@@ -11,7 +11,6 @@ from contextlib import redirect_stderr
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
 from mcap.records import Channel, Schema
@@ -62,28 +61,29 @@ class Topic:
 
     @property
     def decodes(self) -> bool:
-        """Whether its messages can be decoded: they are CDR, with a definition as ROS 2 has it."""
+        """Whether its messages can be decoded: they are CDR, and the bag has a ROS 2 definition."""
         return self.encodings == ('cdr', 'ros2msg')
 
     @property
     def in_words(self) -> str:
-        """How its messages are encoded, where they cannot be decoded."""
+        """How its messages are encoded."""
         return f'message encoding {self.encodings[0]!r}, schema encoding {self.encodings[1]!r}'
 
 
 class BagReader:
     """A bag of this package or of ``ros2 bag record -s mcap``; a context manager.
 
-    It is read as far as it is sound. What is cut off or damaged is left out, and a warning says
-    how much that is.
+    A bag that was cut off is read up to there, a damaged one up to the damage; of a damaged bag
+    that was closed, only the damaged chunks are left out. A warning says where, how much is
+    missing, and how to save what is behind a damage.
 
     Parameters
     ----------
     path : str or path
         Folder of the bag, or one of its files.
     warn : callable, optional
-        Gets a line for each problem that the bag can be read in spite of. They are logged if it
-        is not given.
+        Gets one line for each problem that does not keep the bag from being read; by default the
+        lines are logged.
 
     Attributes
     ----------
@@ -94,7 +94,7 @@ class BagReader:
     topics : dict of str to Topic
         By name.
     counts : dict of str to int
-        Messages by topic. A chunk that turns out to be damaged when it is read is counted.
+        Messages by topic, with those of damaged chunks that nobody has read yet.
     start_time, end_time : int
         First and last log time [ns]; both 0 in an empty bag.
     notes : dict of str to str
@@ -143,19 +143,19 @@ class BagReader:
         Parameters
         ----------
         topics : collection of str, optional
-            Names of the topics; all if it is not given. A topic that is not there has no messages.
+            Names of the topics; all by default. A topic that the bag lacks has no messages.
         start, end : int, optional
             First log time, and the one before which reading ends [ns].
 
         Returns
         -------
         iterator of Message
-            The messages, read as they are asked for; those of one time in the order of the bag.
+            The messages, read as they are asked for; at equal times in the order of the bag.
 
         Raises
         ------
         BagError
-            If a file cannot be read any more.
+            If a file can no longer be read.
         """
         start = 0 if start is None else start
         end = 2**64 if end is None else end
@@ -166,7 +166,7 @@ class BagReader:
                 names = {channel: name for channel, name in names.items() if name in topics}
             load = partial(self._load, unread, number, names, start, end)
             for piece in file.contents.pieces:
-                # Without an index it is not known which channels a chunk has.
+                # An index without message indexes does not say which channels a chunk has.
                 wanted = not piece.channels or not names.keys().isdisjoint(piece.channels)
                 if wanted and piece.end >= start and piece.start < end:
                     unread[number] += 1
@@ -197,7 +197,7 @@ class BagReader:
         decoder = self._decoders.get(message.topic) or self._make_decoder(message.topic)
         try:
             return decoder(message.data)
-        except Exception as error:  # mcap_ros2 checks nothing, so anything may come
+        except Exception as error:  # mcap_ros2 checks nothing, so any error may come
             seconds = (message.log_time - self.start_time) * 1e-9
             raise BagError(
                 f'{self.path}: the message of {message.topic} at {seconds:.6f} s does not decode '
@@ -208,12 +208,7 @@ class BagReader:
         """Return the bag, which is closed at the end of the block."""
         return self
 
-    def __exit__(
-        self,
-        error_type: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *exc_info: object) -> None:
         """Close the files."""
         self._close()
 
@@ -267,7 +262,7 @@ class BagReader:
             elif topic.type_name != type_name:
                 self._warn(
                     f'{file.path}: {contents.counts[number]} messages of {channel.topic} are left '
-                    f'out: of type {type_name}, expected {topic.type_name}'
+                    f'out: expected type {topic.type_name}, got {type_name}'
                 )
                 continue
             names[number] = channel.topic
@@ -279,14 +274,14 @@ class BagReader:
         try:
             profiles = load_yaml(channel.metadata.get('offered_qos_profiles', '')) or []
             if not isinstance(profiles, list) or not all(isinstance(qos, dict) for qos in profiles):
-                raise ValueError('no list of mappings')
+                raise ValueError('expected a list of mappings')
         except ValueError as error:
             self._warn(f'{self.path}: quality of service of {channel.topic} not used: {error}')
             profiles = []
         return tuple(profiles)
 
     def _take_notes(self, file: McapFile, metadata: BagMetadata) -> bool:
-        """Add the notes in a file; return whether its messages are compressed."""
+        """Add the notes in a file; return whether its messages are compressed one by one."""
         compression = metadata.message_compression
         for record in file.contents.metadata:
             if record.name == 'tactile_push':
@@ -300,7 +295,9 @@ class BagReader:
             self.notes.update(own.custom_data)
             compression = own.message_compression
         if compression not in ('', 'zstd'):
-            raise BagError(f'{file.path}: messages compressed by {compression}, expected zstd')
+            raise BagError(
+                f'{file.path}: expected messages compressed with zstd, got {compression}'
+            )
         return compression != ''
 
     def _compare(self, metadata: BagMetadata) -> None:
@@ -309,7 +306,7 @@ class BagReader:
             seconds = max(metadata.end - self.end_time, 0) * 1e-9
             self._warn(
                 f'{self.path}: {metadata.message_count - count} of the '
-                f'{metadata.message_count} messages that metadata.yaml tells of are missing, '
+                f'{metadata.message_count} messages that metadata.yaml counts are missing, '
                 f'{seconds:.3f} s at the end'
             )
 
@@ -334,7 +331,7 @@ class BagReader:
                     f'{file.path}: damaged at byte {piece.offset} ({error}): {piece.length} bytes '
                     f'with the messages from {first:.3f} s to {last:.3f} s are left out'
                 )
-        # A bag may have more files than a process may open.
+        # A bag may have more files than a process may have open.
         unread[number] -= 1
         if not unread[number]:
             file.close()
@@ -345,18 +342,18 @@ class BagReader:
             raise BagError(f'{self.path}: no topic {topic}')
         channel, schema = self._sources[topic]
         try:
-            # mcap_ros2's parser prints what it raises, too.
+            # mcap_ros2's parser also prints the error that it raises.
             with redirect_stderr(io.StringIO()):
                 decoder = DecoderFactory().decoder_for(channel.message_encoding, schema)
         except Exception as error:  # as above
             raise BagError(
-                f'{self.path}: the definition of {self.topics[topic].type_name} for {topic} makes '
-                f'no sense: {_one_line(error)}'
+                f'{self.path}: the definition of {self.topics[topic].type_name} for {topic} is '
+                f'invalid: {_one_line(error)}'
             ) from None
         if decoder is None:
             raise BagError(
-                f'{self.path}: {topic} cannot be decoded: {self.topics[topic].in_words}; '
-                "expected 'cdr' and 'ros2msg'"
+                f"{self.path}: {topic} cannot be decoded: expected message encoding 'cdr', schema "
+                f"encoding 'ros2msg', got {self.topics[topic].in_words}"
             )
         self._decoders[topic] = decoder
         return decoder

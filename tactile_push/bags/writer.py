@@ -12,7 +12,6 @@ import os
 import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from types import TracebackType
 
 from mcap.writer import LIBRARY_IDENTIFIER, CompressionType, Writer
 
@@ -26,8 +25,8 @@ from tactile_push.bags.metadata import (
     to_yaml,
 )
 
-# Longest time for which a message stays in memory while others follow it [s]: with what the disk
-# takes after that, not more than a second is lost in a power cut.
+# Longest time for which a message stays in memory while others follow it [s]. With the time that
+# the disk then takes, a power cut loses no more than a second.
 FLUSH_PERIOD = 0.5
 
 COMPRESSIONS = {
@@ -43,16 +42,16 @@ _CHUNK_BYTES = 1 << 20
 class BagWriter:
     """A bag that is being written.
 
-    What was written is on the disk at the latest a second later, as long as messages keep coming
-    or `flush` is called, so that little is lost if the process dies or the power fails. A bag that
-    was not closed has no ``metadata.yaml``, which ``ros2 bag reindex`` makes, and its last file no
-    index, but can be read up to its last whole chunk.
+    As long as messages keep coming or `flush` is called, each message is on the disk at most a
+    second later, so that little is lost if the process dies or the power fails. A bag that was not
+    closed has no ``metadata.yaml``, which ``ros2 bag reindex`` makes, and its last file has no
+    index; it can be read up to its last whole chunk.
 
-    When the disk is full or fails, the method called next raises OSError. The bag then ends with
-    the last chunk that went onto the disk whole, like one that was not closed.
+    When the disk is full or fails, the next call raises OSError. The bag then ends, like one that
+    was not closed, with the last chunk that reached the disk whole.
 
-    In memory are a chunk, those that wait for the disk (64 at the most), and the index of the
-    file, a kilobyte a chunk.
+    In memory are one chunk, at most 64 that wait for the disk, and the index of the file, a
+    kilobyte a chunk.
 
     Parameters
     ----------
@@ -61,7 +60,7 @@ class BagWriter:
     compression : {'zstd', 'lz4', 'none'}, optional
         How chunks are compressed.
     max_bytes : int, optional
-        A message that comes when the file has so many bytes begins a new one; 0 for one file.
+        The next message begins a new file once one has so many bytes; 0 for one file.
     max_duration : float, optional
         So does a message that was received so long after the first one of the file [s].
 
@@ -116,7 +115,7 @@ class BagWriter:
 
     @property
     def failed(self) -> bool:
-        """Whether an error of the disk has been raised, and the bag ended."""
+        """Whether an error of the disk has been raised; the bag has ended then."""
         return self._disk.failed
 
     @property
@@ -211,7 +210,7 @@ class BagWriter:
         self._mcap.add_metadata('tactile_push', {key: text})
 
     def flush(self) -> None:
-        """Finish the chunk and have all that was written put onto the disk, without waiting."""
+        """Finish the chunk and have all that was written put onto the disk; do not wait for it."""
         self._disk.check()
         self._mcap.flush()
         self._flushed = time.monotonic()
@@ -236,17 +235,12 @@ class BagWriter:
         """Return the bag, which is closed at the end of the block."""
         return self
 
-    def __exit__(
-        self,
-        error_type: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *exc_info: object) -> None:
         """Close the bag; what was written before an error is kept."""
         self.close()
 
     def _is_full(self, log_time_ns: int) -> bool:
-        """Tell whether a message belongs into a new file, as rosbag2's should_split_bagfile."""
+        """Return whether a message begins a new file, as in rosbag2's should_split_bagfile."""
         messages = self._files[-1].messages
         if not messages.count:
             return False
@@ -255,14 +249,14 @@ class BagWriter:
         return bool(self._max_duration) and log_time_ns - messages.start > self._max_duration
 
     def _begin_file(self) -> None:
-        """Begin a file with all that makes it complete by itself."""
+        """Begin a file that can be read without the others."""
         self._finished_bytes = self.byte_count if self._files else 0
         name = f'{self._directory.name}_{len(self._files)}.mcap'
         self._stream = DiskFile(self._disk, self._directory / name)
         self._files.append(FileMetadata(name))
         self._mcap = Writer(
             self._stream,  # type: ignore[arg-type]  # has what is needed of a stream
-            # Small enough for a file to be not much larger than asked for.
+            # Small chunks keep a file close to the size that was asked for.
             chunk_size=min(_CHUNK_BYTES, self._max_bytes // 16 or _CHUNK_BYTES),
             compression=self._compression,
             enable_crcs=True,
@@ -301,7 +295,7 @@ class BagWriter:
         )
 
     def _add_metadata_record(self) -> None:
-        # Like rosbag2, once when a file is opened and once when it is closed; the last one counts.
+        # Like rosbag2, when a file is opened and when it is closed; the last record counts.
         text = to_yaml(self._metadata()).rstrip()
         self._mcap.add_metadata('rosbag2', {'serialized_metadata': text})
 

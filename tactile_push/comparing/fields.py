@@ -145,7 +145,7 @@ def _is_array(value: Any) -> bool:
 
 def _compare_arrays(a: Any, b: Any, field: str, where: str) -> Iterator[Unequal | Lone]:
     if len(a) != len(b):
-        # The length is what differs; which elements are new or gone is anybody's guess.
+        # Only the lengths are compared: which elements are new or gone is unknown.
         yield Unequal(f'len({field})', f'len({where})', len(a), len(b), math.inf)
         return
     if len(a) == 0 or a == b:
@@ -165,7 +165,7 @@ def _distances(a: Sequence[float], b: Sequence[float]) -> np.ndarray:
     if isinstance(a, bytes) and isinstance(b, bytes):
         values = [np.frombuffer(array, np.uint8).astype(float) for array in (a, b)]
     elif isinstance(a[0], int):
-        # Exact for 64-bit numbers, which floating point is not.
+        # Integers: floating point is not exact for 64 bits.
         return np.array([float(abs(x - y)) for x, y in zip(a, b, strict=True)])
     else:
         values = [np.asarray(array, dtype=float) for array in (a, b)]
@@ -173,7 +173,7 @@ def _distances(a: Sequence[float], b: Sequence[float]) -> np.ndarray:
         distances = np.abs(values[0] - values[1])
     unclear = np.isnan(distances)
     if unclear.any():
-        # Of infinities, or where a NaN is.
+        # Differences of infinities, or with a NaN.
         same = (values[0] == values[1]) | (np.isnan(values[0]) & np.isnan(values[1]))
         distances[unclear] = np.where(same[unclear], 0.0, np.inf)
     return distances

@@ -10,10 +10,10 @@ from itertools import zip_longest
 from tactile_push.bags import BagReader, Message
 from tactile_push.bags.headers import HeaderStamps
 
-# What waits at the most for its partner in the other bag; the oldest message is given up then.
+# Messages that may wait for their partners in the other bag; with more, the oldest has none.
 _MOST_MESSAGES = 10_000
 _MOST_BYTES = 16_000_000
-# Messages after which what a topic says about the bags is not taken for the present any more.
+# Messages after which a topic no longer tells which bag is behind.
 _LATELY = 1000
 
 
@@ -160,7 +160,7 @@ class _Pace:
         self._sides = a, b
         self._read = 0
         self._topic = ''
-        self._in_both = -_LATELY  # which message, of all that were read, made it so recent
+        self._in_both = -_LATELY  # number of the message that showed it
 
     def next_to_read(self) -> _Side | None:
         """Return the bag to read, or None if both have ended."""

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Publishes a bag with its timing."""
+"""Publish a bag with its timing."""
 
 import sys
 from collections import Counter
@@ -12,24 +12,25 @@ from rclpy.node import Node
 from rclpy.validate_full_topic_name import validate_full_topic_name
 from std_srvs.srv import SetBool, Trigger
 
-from tactile_push.bags.reader import BagError, BagReader
+from tactile_push.bags import BagError, BagReader
+from tactile_push.interface import BAG_PLAYER, CLOCK, PAUSE, STEP
 from tactile_push.nodes.ros.diagnostics import OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
 from tactile_push.parameters import BagPlayerParameters
 from tactile_push.playing.player import Player
-from tactile_push.playing.schedule import CLOCK, Part, part_of, topic_in_bag
+from tactile_push.playing.schedule import Part, part_of, topic_in_bag
 from tactile_push.playing.terminal import Terminal
 
 TERMINAL_PERIOD = 0.05  # between looks at the keyboard [s]
-PAUSE, STEP = (' ',), ('s', '\x1b[C', '\x1bOC')  # the latter two are the right arrow
+PAUSE_KEYS, STEP_KEYS = (' ',), ('s', '\x1b[C', '\x1bOC')  # the last two are the right arrow
 SWITCH_INTERVAL = 1e-4  # between threads that want to run [s]
 
 
 class BagPlayer(Node):
     """Node: publishes the messages of a bag when they are due, and ends with the bag."""
 
-    NAME = 'bag_player'
+    NAME = BAG_PLAYER
     PARAMETERS = BagPlayerParameters
 
     def __init__(self) -> None:
@@ -55,8 +56,8 @@ class BagPlayer(Node):
         except BagError as error:
             raise ConfigurationError(str(error)) from None
         self._end = (part.end - bag.start_time) * 1e-9
-        self.create_service(SetBool, '~/pause', self._on_pause)
-        self.create_service(Trigger, '~/step', self._on_step)
+        self.create_service(SetBool, PAUSE, self._on_pause)
+        self.create_service(Trigger, STEP, self._on_step)
         self._diagnostics = Diagnostics(self, self._health, self._counts)
         self._terminal = Terminal(self._hold, self._release)
         if self._terminal.there:
@@ -118,9 +119,9 @@ class BagPlayer(Node):
 
     def _serve_terminal(self) -> None:
         for key in self._terminal.read_keys():
-            if key in PAUSE:
+            if key in PAUSE_KEYS:
                 self._player.pause(not self._player.paused)
-            elif key in STEP:
+            elif key in STEP_KEYS:
                 self._player.step()
         self._terminal.show(f'{self._words()}; space pauses and goes on, s steps')
 
@@ -157,7 +158,7 @@ class BagPlayer(Node):
 
 def main() -> int:
     """Run the node as a process."""
-    # Threads get their turn in time for a message.
+    # The playing thread must get its turn when a message is due.
     sys.setswitchinterval(SWITCH_INTERVAL)
     return run(BagPlayer)
 

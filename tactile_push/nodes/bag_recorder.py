@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Records topics into a bag."""
+"""Record topics into a bag."""
 
 import sys
 import time
@@ -10,6 +10,7 @@ from datetime import datetime
 from rclpy.node import Node
 
 from tactile_push.bags import BagWriter
+from tactile_push.interface import BAG_RECORDER
 from tactile_push.nodes.ros.diagnostics import OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
@@ -24,7 +25,7 @@ class BagRecorder(Node):
     stays readable. Its health is a warning as long as there is no message.
     """
 
-    NAME = 'bag_recorder'
+    NAME = BAG_RECORDER
     PARAMETERS = BagRecorderParameters
 
     def __init__(self) -> None:
@@ -73,7 +74,7 @@ class BagRecorder(Node):
             'size [B]': self._writer.byte_count,
         }
         if not self._writer.message_count:
-            return Health(WARN, 'nothing to record yet', values)
+            return Health(WARN, 'no message recorded yet', values)
         return Health(OK, 'recording', values)
 
     def _log_summary(self) -> None:

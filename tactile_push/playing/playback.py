@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from tactile_push.bags import Message
 from tactile_push.playing.schedule import Event
 
-LATE = 10_000_000  # an event that much after it was due is counted [ns]
+LATE = 10_000_000  # delay from which an event counts as late [ns]
 
 
 class Playhead:
@@ -18,7 +18,7 @@ class Playhead:
 
     def __init__(self, rate: float) -> None:
         self._rate = rate
-        # How much was played when, and in one piece, since others ask from their own threads.
+        # How much was played at which time: one object, since other threads read it.
         self._anchor: tuple[int, int | None] = (0, None)
 
     @property

@@ -36,15 +36,12 @@ from tactile_push.playing.read_ahead import ReadAhead
 from tactile_push.playing.schedule import Event, Part, events
 from tactile_push.recording.recorder import message_class
 
-# The graph is looked at so often; it has to stay the same for so long, since nodes that are there
-# are found one after the other; and longer is not waited for [s].
-LOOK_PERIOD = 0.05
-QUIET = 2.0
-PATIENCE = 5.0
-
+LOOK_PERIOD = 0.05  # between looks at the graph [s]
+QUIET = 2.0  # for which the graph must not change: nodes are discovered one by one [s]
+PATIENCE = 5.0  # after which the play begins in any case [s]
 ANSWER_TIMEOUT = 1.0  # of the playing thread, which may have to wait for the disk [s]
 LAST_WORDS = 1.0  # for subscribers to acknowledge the last messages [s]
-TIME_ENDS = 2**31 * 10**9  # as far as a message can tell [ns]
+TIME_ENDS = 2**31 * 10**9  # the first time that builtin_interfaces/Time cannot hold [ns]
 
 
 class Player:
@@ -111,10 +108,10 @@ class Player:
         self._clock: Publisher | None = None
         if clock_rate:
             if part.end >= TIME_ENDS:
-                raise BagError(f'{part.bag.path}: {CLOCK} cannot tell a time of {part.end} ns')
+                raise BagError(f'{part.bag.path}: {CLOCK} cannot hold a time of {part.end} ns')
             self._clock = node.create_publisher(ClockMessage, CLOCK, 10)
-        self._tells = ClockMessage()  # one for all: publishing copies it
-        self._told = part.begin  # by /clock [ns]
+        self._clock_message = ClockMessage()  # one for all: publishing copies it
+        self._told = part.begin  # time last published on /clock [ns]
         self._rate, self._loop, self._paused = rate, loop, paused
         self._events = ReadAhead(
             events(part.messages, part.begin, part.end, clock_rate=clock_rate, loop=loop)
@@ -127,7 +124,7 @@ class Player:
         self._thread = Thread(target=self._run, name='play', daemon=True)
         self._seen: dict[str, int] = {}
         self._created = self._changed = time.monotonic()
-        node.get_logger().info(f'waiting for subscribers, {PATIENCE:g} s at most')
+        node.get_logger().info(f'waiting up to {PATIENCE:g} s for subscribers')
         steady_clock = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = node.create_timer(LOOK_PERIOD, self._look, clock=steady_clock)
 
@@ -200,7 +197,7 @@ class Player:
         self._node.destroy_timer(self._timer)
         logger = self._node.get_logger()
         if deaf:
-            logger.warning(f'not all subscribers can hear yet of {", ".join(deaf)}')
+            logger.warning(f'subscribers are not all matched yet of {", ".join(deaf)}')
         if heard:
             logger.info(f'playing to the subscribers of {", ".join(heard)}')
         else:
@@ -268,8 +265,8 @@ class Player:
         """Publish /clock, also while time stands still: a subscriber may come later."""
         self._told = now
         if self._clock is not None:
-            self._tells.clock.sec, self._tells.clock.nanosec = divmod(now, 10**9)
-            self._clock.publish(self._tells)
+            self._clock_message.clock.sec, self._clock_message.clock.nanosec = divmod(now, 10**9)
+            self._clock.publish(self._clock_message)
 
 
 def _make_publishers(node: Node, part: Part, names: Mapping[str, str]) -> dict[str, Publisher]:
@@ -284,19 +281,19 @@ def _make_publishers(node: Node, part: Part, names: Mapping[str, str]) -> dict[s
     if faults:
         node.get_logger().warning(f'left out: {", ".join(faults)}')
     if not publishers:
-        raise BagError(f'{part.bag.path}: none of its topics can be published here')
+        raise BagError(f'{part.bag.path}: no topic of the bag can be published')
     return publishers
 
 
 def _make_publisher(node: Node, topic: Topic, name: str) -> Publisher:
     encoding = topic.encodings[0]
     if encoding != 'cdr':
-        raise LookupError(f'its messages are {encoding!r}, expected cdr')
+        raise LookupError(f'expected messages in cdr, got {encoding}')
     profile = profile_of(combined_offer(topic.qos))
     try:
         publisher = node.create_publisher(message_class(topic.type_name), name, profile)
     except NameValidationException:
-        raise LookupError('no name of a topic') from None
+        raise LookupError('its name is not valid in ROS') from None
     hashes = {
         str(info.topic_type_hash)
         for info in node.get_publishers_info_by_topic(name)
@@ -304,7 +301,7 @@ def _make_publisher(node: Node, topic: Topic, name: str) -> Publisher:
     }
     if topic.type_hash and hashes and topic.type_hash not in hashes:
         node.destroy_publisher(publisher)
-        raise LookupError(f'{topic.type_name} is another version here')
+        raise LookupError(f'{topic.type_name} is installed in another version')
     return publisher
 
 

@@ -16,8 +16,8 @@ from rclpy.task import Future
 
 from tactile_push.interface import NODES
 
-LOOK_PERIOD = 0.2  # between looks for nodes that have not been asked [s]
-ASK_AGAIN = 5  # looks after which an answer that has not come is lost
+LOOK_PERIOD = 0.2  # between looks for new nodes [s]
+ASK_AGAIN = 5  # looks after which a missing answer is lost
 
 
 class ParameterNotes:

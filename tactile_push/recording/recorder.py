@@ -23,11 +23,11 @@ from tactile_push.interface import CLOCK
 from tactile_push.recording.simulated_time import SimulatedTime
 
 _TAKE_PERIOD = 0.02  # between looks for messages [s]
-_SEARCH_PERIOD = 0.1  # between looks for new topics, as of rosbag2 [s]
-_WATCH_LOOKS = 10  # of these between two at the publishers of the topics that are recorded
+_SEARCH_PERIOD = 0.1  # between looks for new topics, as in rosbag2 [s]
+_WATCH_LOOKS = 10  # looks for new topics between two at the publishers of recorded topics
 
-# Messages of a topic that may wait while the process is kept from running: a second's at the rate
-# that must not lose any.
+# Messages of a topic that may wait while the process does not run: those of a second, at the
+# highest rate at which none may be lost.
 _DEPTH = 5000
 
 
@@ -103,12 +103,12 @@ class Recorder:
             profile = QoSProfile(depth=_DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
             self._clock_subscription = self._subscribe(CLOCK, ClockMessage, profile)
             self._simulated = SimulatedTime()
-        # Simulated time may stand still or not run yet.
+        # Timers must run even while simulated time stands still.
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timers = [
             node.create_timer(_TAKE_PERIOD, self._take, clock=steady),
             node.create_timer(_SEARCH_PERIOD, self._look_at_graph, clock=steady),
-            # The writer flushes only while it is written to; the topics may fall silent.
+            # The writer flushes by itself only when a message is written.
             node.create_timer(FLUSH_PERIOD, writer.flush, clock=steady),
         ]
         self._look_at_graph()
@@ -230,7 +230,7 @@ class Recorder:
         if self._simulated is None:
             return message.received
         if message.topic == CLOCK and (tick := _clock_time(message.data)):
-            return tick  # even if it came a moment before its twin
+            return tick  # even if this subscription received it before the other one
         return self._simulated.at(message.received, latched=message.latched)
 
 

@@ -35,6 +35,6 @@ class Recording:
             self.recorder.stop()
 
     def _note_parameters(self, parameters: dict[str, dict[str, Any]]) -> None:
-        # Values that JSON does not have are arrays, and infinite as Python writes them.
+        # JSON has no arrays of ROS (written as lists) and no infinity (written as Python does).
         text = json.dumps(parameters, default=list)
         self._writer.note(PARAMETERS_NOTE, text)

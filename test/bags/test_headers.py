@@ -52,5 +52,5 @@ def test_stamp_of_big_endian_message(stamps):
 @pytest.mark.parametrize('length', range(12))
 def test_message_without_room_for_a_stamp_is_refused(stamps, length):
     data = encode('sensor_msgs/msg/JointState', STAMP)[:length]
-    with pytest.raises(BagError, match=f'/joints at 7.500000 s has {length} bytes'):
+    with pytest.raises(BagError, match=f'/joints at 7.500000 s, got {length} bytes'):
         stamps.of(Message('/joints', 7_500_000_000, 0, data))

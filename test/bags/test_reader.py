@@ -358,8 +358,8 @@ def test_unknown_encoding_is_read_and_not_decoded(tmp_path, encoding, schema_enc
         for message, encodings in ((thing, schema_encoding), (bare, '')):
             with pytest.raises(BagError) as error:
                 reader.decode(message)
-            words = f"{message.topic} cannot be decoded: message encoding '{encoding}'"
-            assert words in str(error.value)
+            assert f'{message.topic} cannot be decoded: expected ' in str(error.value)
+            assert f"got message encoding '{encoding}'" in str(error.value)
             assert f"schema encoding '{encodings}'" in str(error.value)
 
 
@@ -433,7 +433,9 @@ def test_sqlite_bag_is_refused_with_what_to_do(tmp_path, has_metadata):
     if not has_metadata:
         (tmp_path / 'bag' / 'metadata.yaml').unlink()
     for path in (tmp_path / 'bag', tmp_path / 'bag' / 'bag.db3'):
-        with pytest.raises(BagError, match=r'sqlite3, expected mcap: `ros2 bag convert`'):
+        with pytest.raises(
+            BagError, match=r'expected a bag stored as mcap, got sqlite3: `ros2 bag convert`'
+        ):
             BagReader(path, refuse)
 
 
@@ -508,7 +510,7 @@ def test_unknown_message_compression_is_refused(tmp_path):
     (tmp_path / 'metadata.yaml').write_text(
         metadata_of('bag_0.mcap', compression_mode='MESSAGE', compression_format='fancy')
     )
-    with pytest.raises(BagError, match='fancy, expected zstd'):
+    with pytest.raises(BagError, match='expected messages compressed with zstd, got fancy'):
         BagReader(tmp_path, refuse)
 
 

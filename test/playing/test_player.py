@@ -306,7 +306,7 @@ def test_what_is_not_cdr_is_not_published(graph, tmp_path):
         mcap.finish()
     with pytest.raises(BagError, match='bag.mcap: none of its'):
         graph.play(part_of(BagReader(tmp_path / 'bag.mcap')))
-    assert "/number (its messages are 'json', expected cdr)" in graph.warnings[0]
+    assert '/number (expected messages in cdr, got json)' in graph.warnings[0]
 
 
 def test_first_message_that_does_not_decode_is_told_and_played(graph, tmp_path):
