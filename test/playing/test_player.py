@@ -167,7 +167,7 @@ def test_bag_that_ends_after_all_time_that_a_message_can_tell_is_refused(graph, 
     with BagWriter(tmp_path / 'bag') as bag:
         bag.add_topic('/number', INT64)
         bag.write('/number', serialize_message(Int64()), 2**31 * 10**9, 0)
-    with pytest.raises(BagError, match='/clock cannot tell'):
+    with pytest.raises(BagError, match='/clock cannot hold a time'):
         graph.play(part_of(BagReader(tmp_path / 'bag')), clock_rate=1.0)
 
 
@@ -293,7 +293,7 @@ def test_topics_that_cannot_be_published_are_left_out_with_one_warning(graph, tm
 
 
 def test_bag_without_anything_that_can_be_published_is_refused(graph, tmp_path):
-    with pytest.raises(BagError, match='bag.mcap: none of its'):
+    with pytest.raises(BagError, match='bag.mcap: no topic of the bag can be published'):
         graph.play(part_of(write_strange(tmp_path / 'bag.mcap', with_number=False)))
 
 
@@ -304,7 +304,7 @@ def test_what_is_not_cdr_is_not_published(graph, tmp_path):
         schema = mcap.register_schema(INT64, 'jsonschema', b'{}')
         mcap.add_message(mcap.register_channel('/number', 'json', schema), EPOCH, b'{}', EPOCH)
         mcap.finish()
-    with pytest.raises(BagError, match='bag.mcap: none of its'):
+    with pytest.raises(BagError, match='bag.mcap: no topic of the bag can be published'):
         graph.play(part_of(BagReader(tmp_path / 'bag.mcap')))
     assert '/number (expected messages in cdr, got json)' in graph.warnings[0]
 
