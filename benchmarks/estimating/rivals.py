@@ -9,6 +9,7 @@ import numpy as np
 from estimating.groups import BELT_SPEED, PERIOD, RADIUS, STEPS, C, Group, Run
 from tactile_push.estimation.hypotheses import advance
 from tactile_push.estimation.prior import ROUND
+from tactile_push.estimation.resistance import Pressure, Push
 from tactile_push.mechanics.compiled import Array, compiled
 
 PARTICLES = 4000
@@ -19,16 +20,17 @@ WINDOW = 25  # readings over which the paper's method looks
 Interval = tuple[float, float]
 
 
-def push_of(v_x: float) -> tuple[float, float, Array, float, float, float, bool]:
-    """Give the last arguments of `advance`, for an ellipsoid pushed for a control period."""
-    return 0.0, 0.0, NO_DIRECTION, v_x, BELT_SPEED, PERIOD, False
+def push_of(v_x: float) -> Push:
+    """Return the push of a control period."""
+    return Push(v_x, BELT_SPEED, PERIOD)
 
 
 @compiled
-def advance_all(particles: Array, l: float, push: tuple) -> None:
+def advance_all(particles: Array, l: float, push: Push, moments: Array) -> None:
     """Push every particle for a control period."""
     for row in particles:
-        row[0], row[1], _ = advance(row[0], row[1], row[2], row[3], l, RADIUS, *push)
+        pressure = Pressure(row[2], 0.0, 0.0, moments)  # an ellipsoid
+        row[0], row[1], _ = advance(row[0], row[1], row[3], l, RADIUS, pressure, push, False)
 
 
 def particle_filter(group: Group, run: Run, rng: np.random.Generator) -> dict[int, Interval]:
@@ -45,7 +47,7 @@ def particle_filter(group: Group, run: Run, rng: np.random.Generator) -> dict[in
     )
     found = {}
     for k in range(1, len(run.reading)):
-        advance_all(particles, edge.l, push_of(run.measured[k]))
+        advance_all(particles, edge.l, push_of(run.measured[k]), NO_DIRECTION)
         log_weights = -0.5 * ((run.reading[k] - particles[:, 0]) / group.noise) ** 2
         weights = np.exp(log_weights - log_weights.max())
         weights /= weights.sum()
@@ -69,10 +71,9 @@ def particle_filter(group: Group, run: Run, rng: np.random.Generator) -> dict[in
 
 def trajectory(theta: float, d: float, c: float, l: float, v_x: Array) -> tuple[Array, Array]:
     """Push a sticking contact along measured velocities: theta and d at every control period."""
-    out = [(theta, d)]
+    out, pressure = [(theta, d)], Pressure(c * c, 0.0, 0.0, NO_DIRECTION)
     for v in v_x[1:]:
-        now = (*out[-1], c * c, math.pi / 2.0, l, RADIUS)
-        out.append(advance(*now, *push_of(v))[:2])
+        out.append(advance(*out[-1], math.pi / 2.0, l, RADIUS, pressure, push_of(v), False)[:2])
     thetas, ds = np.array(out).T
     return thetas, ds
 

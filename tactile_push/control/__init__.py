@@ -12,7 +12,6 @@ from tactile_push.control.law import (
 from tactile_push.control.limits import Limits, plausible
 from tactile_push.control.newest import Newest
 from tactile_push.control.push_control import PushControl, Tick
-from tactile_push.control.record import tick_of, tick_values
 from tactile_push.control.settling import settle_step
 from tactile_push.control.states import (
     ANOTHER_COMMAND,
@@ -31,6 +30,7 @@ from tactile_push.control.states import (
     WAITING,
     WORKSPACE_LIMIT,
 )
+from tactile_push.control.tick_state import tick_of, tick_values
 
 __all__ = [
     'AHEAD',

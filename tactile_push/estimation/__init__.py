@@ -33,7 +33,7 @@ if typing.TYPE_CHECKING:
         Ray,
         intersect_rays,
     )
-    from tactile_push.estimation.record import sensing_values, tells_pose
+    from tactile_push.estimation.sensing_state import sensing_values, tells_pose
 
 __all__ = [
     'CONTRADICTIONS',
@@ -66,8 +66,8 @@ __all__ = [
 
 _COMPILED = {
     'ActiveSensing': 'active_sensing',
-    'sensing_values': 'record',
-    'tells_pose': 'record',
+    'sensing_values': 'sensing_state',
+    'tells_pose': 'sensing_state',
     'CONTRADICTIONS': 'contradictions',
     'ContactEstimator': 'contact_estimator',
     'DiskEstimator': 'disk_estimator',

@@ -14,7 +14,7 @@ MOTION_UNKNOWN = 'the finger moved unknown to the controller'
 TICKS_MISSING = 'ticks missing'
 TIME_WENT_BACK = 'time went back'
 
-ROUNDING = 1e-6  # in which two stamps are the same [s]
+SAME_STAMP = 1e-6  # in which two stamps are the same [s]
 FASTEST = 1.0  # a finger that is said to be faster moves in a way that is not known [m/s]
 
 
@@ -112,7 +112,7 @@ class ActiveSensing:
         touches = self._touches(theta, silence)
         self.age = silence if touches else math.nan
         read = stamp - silence
-        if not touches or math.isnan(self._v_x) or read <= self._read + ROUNDING:
+        if not touches or math.isnan(self._v_x) or read <= self._read + SAME_STAMP:
             estimate = self._estimator.estimate()
         elif not self.readings:
             self._motion.reset(read, before)

@@ -8,15 +8,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from tactile_push.estimation import hypotheses
-from tactile_push.estimation.hypotheses import THETA, D
+from tactile_push.estimation.hypotheses import THETA, D, ModelErrors
 from tactile_push.estimation.mixture import quantile
 from tactile_push.estimation.prior import Prior, spread
+from tactile_push.estimation.resistance import Push
 from tactile_push.mechanics.compiled import Array
 
-WAY = 1e-3  # a longer push is taken in parts [m]
-EXCLUDED = 0.05  # a kind of friction with that much of the best one's evidence is excluded
+LONGEST_PUSH = 1e-3  # of the hypotheses [m]: a longer one is taken in parts
+KIND_EXCLUDED = 0.05  # a kind of friction with that much of the best one's evidence is excluded
 LOWER, UPPER = 0.025, 0.975
-GONE = 11.0  # a hypothesis that is less likely than the best by exp(GONE) is given up
+HYPOTHESIS_GONE = 11.0  # one that is less likely than the best by the exponential of it is dropped
 
 
 @dataclass(frozen=True)
@@ -177,7 +178,7 @@ class Bank:
         evidence = np.bincount(self._kinds, weights, minlength=3) / self._shares
         ends = np.searchsorted(self._kinds, range(len(evidence) + 1))
         lower, upper = math.inf, -math.inf
-        for kind in np.flatnonzero(evidence > EXCLUDED * max(evidence)):
+        for kind in np.flatnonzero(evidence > KIND_EXCLUDED * max(evidence)):
             members = slice(ends[kind], ends[kind + 1])
             means = self._means[members, which]
             variances = self._covariances[members, which, which]
@@ -195,20 +196,17 @@ class Bank:
         duration : float
             How long [s].
         """
-        way = math.hypot(v_x, v_y) * duration
-        liberties, parts = self._liberties, math.ceil(way / WAY)
+        liberties = self._liberties
+        parts = math.ceil(math.hypot(v_x, v_y) * duration / LONGEST_PUSH)
+        errors = ModelErrors(liberties.scatter, liberties.skew, liberties.drift)
         for _ in range(parts):
             hypotheses.predict(
                 self._means,
                 self._covariances,
                 self._motions,
                 self._moments,
-                v_x,
-                v_y,
-                duration / parts,
-                liberties.scatter,
-                liberties.skew,
-                liberties.drift,
+                Push(v_x, v_y, duration / parts),
+                errors,
                 self._curved,
             )
 
@@ -243,7 +241,7 @@ class Bank:
         off = (self._means[:, D] + deviations < low) | (self._means[:, D] - deviations > high)
         share = float(self.weights[off].sum())
         self.off += (1.0 - self.off) * share
-        kept = ~off & (self._log_weights > self._log_weights.max() - GONE)
+        kept = ~off & (self._log_weights > self._log_weights.max() - HYPOTHESIS_GONE)
         if not kept.all() and kept.any():
             self._means = self._means[kept]
             self._covariances = self._covariances[kept]

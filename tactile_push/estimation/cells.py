@@ -17,10 +17,11 @@ is outside the motion cone, whose edges may differ from the ellipsoid's by an an
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from tactile_push.estimation.resistance import cone_of_angle
+from tactile_push.estimation.resistance import Push, cone_of_angle
 from tactile_push.mechanics.compiled import Array, compiled, equation
 
 THETA_LOW, THETA_HIGH = 0, 1  # [rad]
@@ -29,279 +30,198 @@ C_SQUARED_LOW, C_SQUARED_HIGH = 4, 5  # [m^2]
 ALPHA_LOW, ALPHA_HIGH = 6, 7  # [rad]
 FACES = 8
 
-STEEPEST = 100.0  # slope beyond which an edge of the motion cone is along the edge of the object
-ANGLE_SLACK = 2e-6  # more than the midpoint rule is wrong by in half a millimetre [rad]
-LENGTH_SLACK = 1e-7  # the same [m]
+STEEPEST_EDGE = 100.0  # slope beyond which an edge of the motion cone is along the object's edge
+# More than the midpoint rule is wrong by in half a millimetre.
+ANGLE_SLACK = 2e-6  # [rad]
+LENGTH_SLACK = 1e-7  # [m]
 
 
-@equation
-def times(a_low: float, a_high: float, b_low: float, b_high: float) -> tuple[float, float]:
-    """Multiply two intervals.
+class Interval(NamedTuple):
+    """All numbers from low to high."""
 
-    Parameters
-    ----------
-    a_low, a_high, b_low, b_high : float
-        The intervals.
-
-    Returns
-    -------
-    low, high : float
-        The interval of all products.
-    """
-    w, x, y, z = a_low * b_low, a_low * b_high, a_high * b_low, a_high * b_high
-    return min(min(w, x), min(y, z)), max(max(w, x), max(y, z))
+    low: float
+    high: float
 
 
-@equation
-def squared(low: float, high: float) -> tuple[float, float]:
-    """Square an interval.
+class Bounds(NamedTuple):
+    """What bounds every cell alike.
 
     Parameters
     ----------
-    low, high : float
-        The interval.
-
-    Returns
-    -------
-    low, high : float
-        The interval of all squares.
+    d : Interval
+        Ends of the edge [m].
+    l : Interval
+        Distance from the edge to the centre of mass [m].
+    r : Interval
+        Radius of the finger's disk [m].
+    theta_0 : float
+        The first reading [rad].
+    turn : float
+        How far omega may be from the ellipsoid's, as a share of it, below 1.
+    cone : float
+        How far an edge of the motion cone may be from the ellipsoid's [rad].
     """
-    least = max(0.0, max(low, -high))
-    most = max(-low, high)
-    return least * least, most * most
+
+    d: Interval
+    l: Interval
+    r: Interval
+    theta_0: float
+    turn: float
+    cone: float
+
+
+@equation
+def times(a: Interval, b: Interval) -> Interval:
+    """Return the interval of all products."""
+    w, x, y, z = a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high
+    return Interval(min(min(w, x), min(y, z)), max(max(w, x), max(y, z)))
+
+
+@equation
+def scaled(interval: Interval, factor: float) -> Interval:
+    """Return the interval of all products with a number."""
+    return times(interval, Interval(factor, factor))
+
+
+@equation
+def squared(a: Interval) -> Interval:
+    """Return the interval of all squares."""
+    least = max(0.0, max(a.low, -a.high))
+    most = max(-a.low, a.high)
+    return Interval(least * least, most * most)
 
 
 @equation
 def left_edge(
-    d_low: float,
-    d_high: float,
-    c_squared_low: float,
-    c_squared_high: float,
-    cos_alpha: float,
-    sin_alpha: float,
-    l_low: float,
-    l_high: float,
+    d: Interval, l: Interval, c_squared: Interval, cos_alpha: float, sin_alpha: float
 ) -> tuple[float, float, float, float]:
-    """Bound the direction of the motion cone's left edge.
+    """Bound the direction of the motion cone's left edge: rightmost, then leftmost (t, n).
 
     The force (-sin alpha, cos alpha) moves the contact at
     ((c^2 + l^2) f_t + d l f_n, d l f_t + (c^2 + d^2) f_n), by (4), (5) and (8), less than a right
     angle away from the force: an edge that does not face forward is on the left.
-
-    Parameters
-    ----------
-    d_low, d_high, c_squared_low, c_squared_high, l_low, l_high : float
-        Bounds of d [m], c^2 [m^2] and l [m].
-    cos_alpha, sin_alpha : float
-        The friction cone.
-
-    Returns
-    -------
-    right_t, right_n, left_t, left_n : float
-        The rightmost and the leftmost direction, along tangent and normal.
     """
-    dl_low, dl_high = times(d_low, d_high, l_low, l_high)
-    dd_low, dd_high = squared(d_low, d_high)
-    t_low = dl_low * cos_alpha - (c_squared_high + l_high * l_high) * sin_alpha
-    t_high = dl_high * cos_alpha - (c_squared_low + l_low * l_low) * sin_alpha
-    n_low = (c_squared_low + dd_low) * cos_alpha - dl_high * sin_alpha
-    n_high = (c_squared_high + dd_high) * cos_alpha - dl_low * sin_alpha
+    dl, dd = times(d, l), squared(d)
+    t_low = dl.low * cos_alpha - (c_squared.high + l.high * l.high) * sin_alpha
+    t_high = dl.high * cos_alpha - (c_squared.low + l.low * l.low) * sin_alpha
+    n_low = (c_squared.low + dd.low) * cos_alpha - dl.high * sin_alpha
+    n_high = (c_squared.high + dd.high) * cos_alpha - dl.low * sin_alpha
     if n_high <= 0.0:
-        return -STEEPEST, 1.0, -STEEPEST, 1.0
+        return -STEEPEST_EDGE, 1.0, -STEEPEST_EDGE, 1.0
     right_n = n_high if t_high < 0.0 else max(n_low, 0.0)
     if n_low <= 0.0:
-        return t_high, right_n, -STEEPEST, 1.0
+        return t_high, right_n, -STEEPEST_EDGE, 1.0
     return t_high, right_n, t_low, n_low if t_low < 0.0 else n_high
 
 
 @equation
 def slope(t: float, n: float) -> float:
-    """Give t/n of a direction.
+    """Return t/n of a direction, `STEEPEST_EDGE` at the most.
 
-    Parameters
-    ----------
-    t, n : float
-        The direction along tangent and normal.
-
-    Returns
-    -------
-    float
-        The slope, `STEEPEST` at the most; minus infinity of what leans to the left that far, where
-        nothing slips.
+    It is minus infinity for a direction that leans to the left that far: there nothing slips.
     """
-    if n * STEEPEST <= abs(t):
-        return STEEPEST if t > 0.0 else -math.inf
+    if n * STEEPEST_EDGE <= abs(t):
+        return STEEPEST_EDGE if t > 0.0 else -math.inf
     return t / n
 
 
 @equation
 def left_slopes(
-    d_low: float,
-    d_high: float,
-    cell: Array,
-    friction: Array,
-    l_low: float,
-    l_high: float,
-    cos: float,
-    sin: float,
+    d: Interval, l: Interval, cell: Array, friction: Array, cos: float, sin: float
 ) -> tuple[float, float]:
-    """Bound the slope of the motion cone's left edge, for all frictions in a cell.
+    """Bound the slope of the motion cone's left edge for all frictions in a cell: most, then least.
 
-    Parameters
-    ----------
-    d_low, d_high, l_low, l_high : float
-        Bounds of d and l [m].
-    cell : ndarray, shape (8,)
-        The cell.
-    friction : ndarray, shape (4,)
-        Cosine and sine of its least and of its greatest alpha.
-    cos, sin : float
-        Cosine and sine of how far the edge may be from the ellipsoid's.
-
-    Returns
-    -------
-    nearest, farthest : float
-        The greatest and the least slope.
+    `friction` holds cosine and sine of the cell's least and of its greatest alpha, `cos` and `sin`
+    are those of how far the edge may be from the ellipsoid's.
     """
-    low, high = cell[C_SQUARED_LOW], cell[C_SQUARED_HIGH]
-    t, n, _, _ = left_edge(d_low, d_high, low, high, friction[0], friction[1], l_low, l_high)
+    c_squared = Interval(cell[C_SQUARED_LOW], cell[C_SQUARED_HIGH])
+    t, n, _, _ = left_edge(d, l, c_squared, friction[0], friction[1])
     nearest = slope(cos * t + sin * n, cos * n - sin * t)
-    _, _, t, n = left_edge(d_low, d_high, low, high, friction[2], friction[3], l_low, l_high)
+    _, _, t, n = left_edge(d, l, c_squared, friction[2], friction[3])
     return nearest, slope(cos * t - sin * n, cos * n + sin * t)
 
 
 @equation
 def rate_bounds(
-    theta: float,
-    cell: Array,
-    friction: Array,
-    v_x: float,
-    v_y: float,
-    l_low: float,
-    l_high: float,
-    r_low: float,
-    r_high: float,
-    theta_0: float,
-    share: float,
-    lean: tuple[float, float],
-) -> tuple[float, float, float, float]:
+    theta: float, cell: Array, friction: Array, push: Push, bounds: Bounds, cos: float, sin: float
+) -> tuple[Interval, Interval]:
     """Bound the rates for one theta and everything else in a cell.
 
-    Parameters
-    ----------
-    theta : float
-        Angle of the edge [rad].
-    cell, friction
-        As `left_slopes` takes them.
-    v_x, v_y : float
-        Velocity of the finger relative to the support [m/s].
-    l_low, l_high : float
-        Bounds of l [m].
-    r_low, r_high : float
-        Bounds of the radius of the finger's disk [m].
-    theta_0 : float
-        The first reading [rad].
-    share : float
-        How far omega may be from the ellipsoid's, as a share of it, below 1.
-    lean : tuple of float
-        Cosine and sine of how far an edge of the motion cone may be from the ellipsoid's.
-
-    Returns
-    -------
-    omega_low, omega_high : float
-        Bounds of the rate of theta [rad/s].
-    slip_low, slip_high : float
-        Bounds of the velocity of slip, the rate of d + r (theta - theta_0) [m/s].
+    Returned are bounds of omega, the rate of theta [rad/s], and of the velocity of slip, the rate
+    of d + r (theta - theta_0) [m/s]. `friction`, `cos` and `sin` are as in `left_slopes`.
     """
-    cos, sin = math.cos(theta), math.sin(theta)
-    v_t, v_n = cos * v_x + sin * v_y, cos * v_y - sin * v_x
-    turned = theta - theta_0
-    rolled_low, rolled_high = times(r_low, r_high, turned, turned)
-    d_low, d_high = cell[ROLLED_LOW] - rolled_high, cell[ROLLED_HIGH] - rolled_low
-    low, high = cell[C_SQUARED_LOW], cell[C_SQUARED_HIGH]
+    l = bounds.l
+    cos_theta, sin_theta = math.cos(theta), math.sin(theta)
+    v_t = cos_theta * push.v_x + sin_theta * push.v_y
+    v_n = cos_theta * push.v_y - sin_theta * push.v_x
+    rolled = scaled(bounds.r, theta - bounds.theta_0)
+    d = Interval(cell[ROLLED_LOW] - rolled.high, cell[ROLLED_HIGH] - rolled.low)
     if v_n > 0.0:
-        nearest, farthest = left_slopes(d_low, d_high, cell, friction, l_low, l_high, *lean)
+        nearest, farthest = left_slopes(d, l, cell, friction, cos, sin)
         slip_low = min(0.0, v_t - v_n * nearest)
         slip_high = min(0.0, v_t - v_n * farthest)
         # The right edge is the left one's mirror image.
-        nearest, farthest = left_slopes(-d_high, -d_low, cell, friction, l_low, l_high, *lean)
+        nearest, farthest = left_slopes(Interval(-d.high, -d.low), l, cell, friction, cos, sin)
         slip_low += max(0.0, v_t + v_n * farthest)
         slip_high += max(0.0, v_t + v_n * nearest)
     else:  # pulled along, or left standing
         slip_low, slip_high = min(0.0, v_t), max(0.0, v_t)
-    turn_low, turn_high = times(d_low, d_high, v_n, v_n)
-    along_low, along_high = times(l_low, l_high, v_t - slip_high, v_t - slip_low)
-    turn_low, turn_high = turn_low + along_low, turn_high + along_high
+    by_normal, by_tangent = scaled(d, v_n), times(l, Interval(v_t - slip_high, v_t - slip_low))
+    turn_low, turn_high = by_normal.low + by_tangent.low, by_normal.high + by_tangent.high
     if v_n <= 0.0:
         turn_low, turn_high = min(turn_low, 0.0), max(turn_high, 0.0)
-    dd_low, dd_high = squared(d_low, d_high)
-    least, most = low + dd_low + l_low * l_low, high + dd_high + l_high * l_high
+    dd, share = squared(d), bounds.turn
+    least = cell[C_SQUARED_LOW] + dd.low + l.low * l.low
+    most = cell[C_SQUARED_HIGH] + dd.high + l.high * l.high
     omega_low = turn_low * ((1.0 + share) / least if turn_low < 0.0 else (1.0 - share) / most)
     omega_high = turn_high * ((1.0 + share) / least if turn_high > 0.0 else (1.0 - share) / most)
-    return omega_low, omega_high, slip_low, slip_high
+    return Interval(omega_low, omega_high), Interval(slip_low, slip_high)
 
 
 @compiled
-def push_cells(
-    cells: Array,
-    v_x: float,
-    v_y: float,
-    duration: float,
-    d_low: float,
-    d_high: float,
-    l_low: float,
-    l_high: float,
-    r_low: float,
-    r_high: float,
-    theta_0: float,
-    share: float,
-    angle: float,
-) -> int:
+def push_cells(cells: Array, push: Push, bounds: Bounds) -> int:
     """Move all cells on by a short push, as long as the contact stays on the edge.
 
     Parameters
     ----------
     cells : ndarray, shape (H, 8)
         The cells, changed; those that are left come first.
-    v_x, v_y, l_low, l_high, r_low, r_high, theta_0, share
-        As `rate_bounds` takes them.
-    angle : float
-        How far an edge of the motion cone may be from the ellipsoid's [rad].
-    duration : float
-        How long [s], for half a millimetre at the most.
-    d_low, d_high : float
-        Ends of the edge [m].
+    push : Push
+        The push, half a millimetre long at the most.
+    bounds : Bounds
+        What bounds every cell.
 
     Returns
     -------
     int
         How many are left.
     """
-    left, half = 0, duration / 2.0
+    left, half, theta_0 = 0, push.duration / 2.0, bounds.theta_0
     middle, friction = np.empty(FACES), np.empty(4)
-    lean = math.cos(angle), math.sin(angle)
-    speed = math.hypot(v_x, v_y)
-    known = v_x, v_y, l_low, l_high, r_low, r_high, theta_0, share, lean
+    cos, sin = math.cos(bounds.cone), math.sin(bounds.cone)
+    speed = math.hypot(push.v_x, push.v_y)
     for h in range(len(cells)):
         cell = cells[h]
         friction[0], friction[1] = cone_of_angle(cell[ALPHA_LOW])
         friction[2], friction[3] = cone_of_angle(cell[ALPHA_HIGH])
         theta_low, theta_high = cell[THETA_LOW], cell[THETA_HIGH]
-        a, _, low_a, high_a = rate_bounds(theta_low, cell, friction, *known)
-        _, b, low_b, high_b = rate_bounds(theta_high, cell, friction, *known)
+        # The midpoint rule, for the face of the least and for that of the greatest theta.
+        omega_a, slip_a = rate_bounds(theta_low, cell, friction, push, bounds, cos, sin)
+        omega_b, slip_b = rate_bounds(theta_high, cell, friction, push, bounds, cos, sin)
         middle[:] = cell
-        middle[ROLLED_LOW] += half * min(low_a, low_b)
-        middle[ROLLED_HIGH] += half * max(high_a, high_b)
-        a, _, low_a, high_a = rate_bounds(theta_low + half * a, middle, friction, *known)
-        _, b, low_b, high_b = rate_bounds(theta_high + half * b, middle, friction, *known)
+        middle[ROLLED_LOW] += half * min(slip_a.low, slip_b.low)
+        middle[ROLLED_HIGH] += half * max(slip_a.high, slip_b.high)
+        at_low, at_high = theta_low + half * omega_a.low, theta_high + half * omega_b.high
+        omega_a, slip_a = rate_bounds(at_low, middle, friction, push, bounds, cos, sin)
+        omega_b, slip_b = rate_bounds(at_high, middle, friction, push, bounds, cos, sin)
         # Between the faces of theta the velocity of slip bends by no more than this.
-        slack = LENGTH_SLACK + speed * duration * (theta_high - theta_low) ** 2
-        theta_low += duration * a - ANGLE_SLACK
-        theta_high += duration * b + ANGLE_SLACK
-        low = cell[ROLLED_LOW] + duration * min(low_a, low_b) - slack
-        high = cell[ROLLED_HIGH] + duration * max(high_a, high_b) + slack
-        rolled_low, rolled_high = times(r_low, r_high, theta_low - theta_0, theta_high - theta_0)
-        low, high = max(low, d_low + rolled_low), min(high, d_high + rolled_high)
+        slack = LENGTH_SLACK + speed * push.duration * (theta_high - theta_low) ** 2
+        theta_low += push.duration * omega_a.low - ANGLE_SLACK
+        theta_high += push.duration * omega_b.high + ANGLE_SLACK
+        low = cell[ROLLED_LOW] + push.duration * min(slip_a.low, slip_b.low) - slack
+        high = cell[ROLLED_HIGH] + push.duration * max(slip_a.high, slip_b.high) + slack
+        rolled = times(bounds.r, Interval(theta_low - theta_0, theta_high - theta_0))
+        low, high = max(low, bounds.d.low + rolled.low), min(high, bounds.d.high + rolled.high)
         if low <= high:
             middle[THETA_LOW], middle[THETA_HIGH] = theta_low, theta_high
             middle[ROLLED_LOW], middle[ROLLED_HIGH] = low, high

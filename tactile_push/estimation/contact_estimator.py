@@ -17,7 +17,7 @@ from tactile_push.mechanics.compiled import Array
 OF_POSE = (THETA, D, L, R)
 NOISE_BOUND = 5.0  # largest error of a reading for what is guaranteed, in its deviations
 SLENDER_DRIFT, SLENDER_SKEW = 0.1, 0.15  # of the liberties, by the logarithm of the slenderness
-ANY_ANGLE = math.pi**2 / 12.0  # variance of a theta of which nothing is known [rad^2]
+ANY_THETA = math.pi**2 / 12.0  # variance of a theta of which nothing is known [rad^2]
 
 
 @dataclass(frozen=True)
@@ -166,7 +166,7 @@ class ContactEstimator:
         self.reset()
         mean, covariance = self._bank.moments()
         covariance[THETA] = covariance[:, THETA] = 0.0
-        covariance[THETA, THETA] = ANY_ANGLE
+        covariance[THETA, THETA] = ANY_THETA
         known = np.array([prior.d, prior.c, prior.mu_c])
         self._before = self._put_together(mean, covariance, known, known)
 

@@ -12,7 +12,7 @@ from tactile_push.estimation.contact_estimator import ContactEstimator, Estimate
 from tactile_push.estimation.contradictions import Probation
 from tactile_push.mechanics.compiled import Array
 
-GONE = 16.0  # an estimator that is less likely than the best by exp(GONE) is given up
+EDGE_GONE = 16.0  # an estimator that is less likely than the best by exp(EDGE_GONE) is given up
 UNLIKELY = 'another edge agrees far better with the readings'
 
 
@@ -114,7 +114,7 @@ class Contenders:
             self._begin()
         else:
             best = evidence[agree].max()
-            self._alive = [i for i in agree if evidence[i] > best - GONE]
+            self._alive = [i for i in agree if evidence[i] > best - EDGE_GONE]
             weights = np.zeros(len(evidence))
             weights[self._alive] = np.exp(evidence[self._alive] - best)
             self.weights = weights / weights.sum()

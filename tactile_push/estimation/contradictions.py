@@ -19,12 +19,12 @@ JUMPY = 15.0  # the same of readings that are anywhere: three outliers in a row
 LEAK = 0.01  # of a sum, per reading
 MEMORY = 20  # readings over which surprise is averaged
 SURPRISE = 4.0  # mean of squared normalised errors, 1 on average, that contradicts the model
-FARTHEST = 25.0  # what one reading can add to the surprise
+MOST_SURPRISE = 25.0  # what one reading can add to the surprise
 OFF = 0.95  # share of the hypotheses off the edge that contradicts the model
 NEAR = 6.0  # standard deviations within which readings are the same
 CHANGE = 1.0  # way in which the rate of an edge that turns anyhow becomes another, in l
 AGAIN = 2  # readings outside `NEAR` in a row that show that an edge turns again
-SHORTEST, LONGEST = 40, 200  # readings that have to agree after a contradiction
+FEWEST, MOST = 40, 200  # readings that have to agree after a contradiction
 
 ANYWHERE = 'the readings jump about: is the sensor disturbed?'
 JUMPED = 'the edge jumped and stayed there: another object, or another edge?'
@@ -134,7 +134,7 @@ class Watch:
         if log_density > self.outlier:
             self._since = deque([theta], MEMORY)
             self._gone = 0.0
-            self.surprise += (min(error**2, FARTHEST) - self.surprise) / MEMORY
+            self.surprise += (min(error**2, MOST_SURPRISE) - self.surprise) / MEMORY
         self._still.read(theta, way, log_density)
         self._turning.read(theta, way, log_density)
         self._anywhere -= math.log(math.pi) + log_density + LEAK * self._anywhere
@@ -209,7 +209,7 @@ class Probation:
         theta : float
             The last reading [rad].
         """
-        self._needed = min(max(self._readings, SHORTEST), LONGEST)
+        self._needed = min(max(self._readings, FEWEST), MOST)
         self._readings = self._outside = 0
         self._stood = theta if reason == STILL else None
         self.reason = reason

@@ -12,7 +12,9 @@ from tactile_push.estimation.object_estimator import ObjectEstimate
 from tactile_push.estimation.pose import object_pose
 from tactile_push.estimation.prior import Prior
 
-ANY_ANGLE = (2.0 * math.pi) ** 2 / 12.0  # variance of the disk's angle, which nothing shows [rad^2]
+ANY_ORIENTATION = (
+    2.0 * math.pi
+) ** 2 / 12.0  # variance of the disk's angle, which nothing shows [rad^2]
 
 
 class DiskEstimator:
@@ -110,7 +112,7 @@ class DiskEstimator:
         # How the disk has turned since it was put down shows nowhere.
         pose[2] = 0.0
         covariance[2, :] = covariance[:, 2] = 0.0
-        covariance[2, 2] = ANY_ANGLE
+        covariance[2, 2] = ANY_ORIENTATION
         return ObjectEstimate(
             (),
             np.zeros(0),

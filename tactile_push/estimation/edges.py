@@ -11,7 +11,7 @@ import numpy.typing as npt
 from tactile_push.estimation.prior import ROUND
 from tactile_push.mechanics import Outline
 from tactile_push.mechanics.compiled import Array
-from tactile_push.mechanics.contact import LENGTH, TAU, D, L
+from tactile_push.mechanics.contact import D_START, L_START, LENGTH, TAU
 
 ANY_RADIUS = 1.0  # of the finger's disk [m]: where its path is straight does not depend on it
 
@@ -93,7 +93,7 @@ def edges_of(vertices: npt.ArrayLike) -> tuple[Edge, ...]:
             f'straight line, got {corners.tolist()}'
         )
     rows = outline.path(ANY_RADIUS)[:-1:2]
-    if not (rows[:, L] > 0.0).all():
+    if not (rows[:, L_START] > 0.0).all():
         raise ValueError(
             f'vertices: expected a polygon about its centre of mass, (0, 0), got {corners.tolist()}'
         )
@@ -101,8 +101,8 @@ def edges_of(vertices: npt.ArrayLike) -> tuple[Edge, ...]:
     return tuple(
         Edge(
             number,
-            (float(row[D]), float(row[D] + row[LENGTH])),
-            float(row[L]),
+            (float(row[D_START]), float(row[D_START] + row[LENGTH])),
+            float(row[L_START]),
             float(row[TAU]),
             _seen_from(moments, float(row[TAU])),
         )

@@ -17,14 +17,17 @@ from tactile_push.estimation.cells import (
     ROLLED_LOW,
     THETA_HIGH,
     THETA_LOW,
+    Bounds,
+    Interval,
     cut_cells,
     push_cells,
     split_cells,
 )
 from tactile_push.estimation.prior import Prior, friction
+from tactile_push.estimation.resistance import Push
 from tactile_push.mechanics.compiled import Array
 
-WAY = 5e-4  # a longer push is taken in parts [m]
+LONGEST_PART = 5e-4  # of a push of the cells [m]: what ANGLE_SLACK and LENGTH_SLACK hold for
 CELLS = 256
 
 
@@ -132,22 +135,20 @@ class GuaranteedSet:
         duration : float
             How long [s].
         """
-        prior, bounds = self._prior, self._bounds
-        parts = max(1, math.ceil(math.hypot(v_x, v_y) * duration / WAY))
+        prior, model = self._prior, self._bounds
+        slack = 3.0 * prior.l_sigma
+        bounds = Bounds(
+            Interval(*prior.d),
+            Interval(prior.l - slack, prior.l + slack),
+            Interval(*self._radius),
+            self._theta,
+            model.turn,
+            model.cone,
+        )
+        parts = max(1, math.ceil(math.hypot(v_x, v_y) * duration / LONGEST_PART))
+        push = Push(v_x, v_y, duration / parts)
         for _ in range(parts):
-            self._count = push_cells(
-                self._cells[: self._count],
-                v_x,
-                v_y,
-                duration / parts,
-                *prior.d,
-                prior.l - 3.0 * prior.l_sigma,
-                prior.l + 3.0 * prior.l_sigma,
-                *self._radius,
-                self._theta,
-                bounds.turn,
-                bounds.cone,
-            )
+            self._count = push_cells(self._cells[: self._count], push, bounds)
 
     def read(self, theta: float) -> None:
         """Take a reading.

@@ -1,20 +1,27 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Many guesses of where on the edge the finger is, each moved by the mechanics and corrected.
+"""Many guesses of where on the edge the finger is: the mechanics moves them, readings correct them.
 
-A hypothesis is a Gaussian of the eight numbers that the mechanics needs, in the order of the
-columns below, and a weight. A push moves its mean and covariance through `pushed_twist` at points
-around the mean (the cubature rule, exact to the third order), so that sticking, slipping and the
-passage between them need no derivatives. A reading of theta corrects it as a Kalman filter does,
-and its likelihood changes the weight. Narrow hypotheses side by side stand for any prior; where
-data have made them narrower than their distance, one is enough.
+A hypothesis is a weight and a Gaussian of the eight numbers that the mechanics needs, in the order
+of the columns below. A push moves points around the mean by `pushed_twist` (the cubature rule,
+exact to the third order), so sticking, slipping and the passage between them need no derivatives.
+A reading of theta corrects the Gaussian as in a Kalman filter, and its likelihood changes the
+weight. Narrow hypotheses side by side stand for any prior; where data have made them narrower than
+their distance, one is enough.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from tactile_push.estimation.resistance import LEAST_COSINE, cone_of_angle, settled
+from tactile_push.estimation.resistance import (
+    LEAST_COSINE,
+    Pressure,
+    Push,
+    cone_of_angle,
+    settled,
+)
 from tactile_push.mechanics.compiled import Array, compiled, equation
 from tactile_push.mechanics.motion import pushed_twist
 
@@ -28,27 +35,39 @@ GROWTH = 6  # by how much c^2 grows while the object turns, see `resistance`
 SHAPE = 7  # how far c^2 depends on the direction of motion, see `resistance`
 UNKNOWNS = 8
 
-SMOOTH = 5e-3  # way over which a change of the motion is felt [m]
+LASTING = 5e-3  # way over which errors last and a change of the motion is felt [m]
 SHORTEST = 1e-9  # way that counts as none [m]
-STEEPEST = 3.0  # tangent of a force's angle that counts
-SMALLEST, LARGEST = math.log(1e-4), math.log(10.0)  # c that counts as none, and as any [ln m]
+STEEPEST_FORCE = 3.0  # tangent of a force's angle that counts
+LEAST_LOG_C, MOST_LOG_C = math.log(1e-4), math.log(10.0)  # c that counts as none, as any [ln m]
 NEVER = 1e-18  # a variance up to this, in units of the unknown, is none
+
+
+class ModelErrors(NamedTuple):
+    """How far objects differ from the model; standard deviations, see `Liberties`."""
+
+    scatter: float
+    skew: float
+    drift: float
+
+
+class Moved(NamedTuple):
+    """Where a push takes a hypothesis: means over its points [rad, m, m] and what share slips."""
+
+    theta: float
+    d: float
+    slip: float
+    slipping: float
 
 
 @equation
 def advance(
     theta: float,
     d: float,
-    c_squared: float,
     alpha: float,
     l: float,
     r: float,
-    growth: float,
-    shape: float,
-    moments: Array,
-    v_x: float,
-    v_y: float,
-    duration: float,
+    pressure: Pressure,
+    push: Push,
     curved: bool,
 ) -> tuple[float, float, float]:
     """Push for a short while, by the midpoint rule.
@@ -57,20 +76,20 @@ def advance(
     ----------
     theta : float
         Angle of the edge, or of the tangent [rad].
-    d, l : float
-        Contact along the edge and distance from there to the centre of mass [m].
+    d : float
+        Contact along the edge [m].
     alpha : float
         Half angle of the friction cone [rad]; what is beyond 0 and pi/2 counts as the bound.
+    l : float
+        Distance from the edge to the centre of mass [m]; the radius of a curved object.
     r : float
         Radius of the finger's disk [m].
-    c_squared, growth, shape, moments
-        As `resistance` takes them.
-    v_x, v_y : float
-        Velocity of the finger relative to the support [m/s].
-    duration : float
-        How long [s].
+    pressure : Pressure
+        How the object resists turning.
+    push : Push
+        The push.
     curved : bool
-        Whether the object is a disk about its centre of mass, l its radius.
+        Whether the object is a disk about its centre of mass.
 
     Returns
     -------
@@ -81,24 +100,24 @@ def advance(
     """
     # On a disk d stays, and theta changes with the place of the tangent, too.
     along, around = (0.0, 1.0 / (l + r)) if curved else (1.0, 0.0)
+    v_x, v_y, duration = push.v_x, push.v_y, push.duration
     half = duration / 2.0
     cos_alpha, sin_alpha = cone_of_angle(alpha)
     cos, sin = math.cos(theta), math.sin(theta)
     v_t, v_n = cos * v_x + sin * v_y, cos * v_y - sin * v_x
-    now, omega, v_slip = settled(
-        v_t, v_n, d, l, cos_alpha, sin_alpha, c_squared, growth, shape, moments
-    )
-    way = v_slip - omega * r  # (16)
-    theta_half, d_half = theta + half * (omega + around * way), d + half * along * way
+    c_squared, omega, v_slip = settled(v_t, v_n, d, l, cos_alpha, sin_alpha, pressure)
+    v_along = v_slip - omega * r  # (16)
+    theta_half = theta + half * (omega + around * v_along)
+    d_half = d + half * along * v_along
     cos, sin = math.cos(theta_half), math.sin(theta_half)
     v_t, v_n = cos * v_x + sin * v_y, cos * v_y - sin * v_x
     _, _, omega, v_slip, _ = pushed_twist(
-        v_t, v_n, d_half, -l, cos_alpha, sin_alpha, math.sqrt(now)
+        v_t, v_n, d_half, -l, cos_alpha, sin_alpha, math.sqrt(c_squared)
     )
-    way = v_slip - omega * r
+    v_along = v_slip - omega * r
     return (
-        theta + duration * (omega + around * way),
-        d + duration * along * way,
+        theta + duration * (omega + around * v_along),
+        d + duration * along * v_along,
         duration * v_slip,
     )
 
@@ -117,18 +136,142 @@ def factorise(covariance: Array, root: Array) -> None:
                 root[i, j] = rest / root[j, j] if root[j, j] > 0.0 else 0.0
 
 
+@equation
+def place_points(root: Array, deviations: Array) -> int:
+    """Write the cubature rule's points, as deviations from the mean: return how many pairs differ.
+
+    Points along what is known for certain would be the mean itself and are left out; if all is
+    known for certain, one pair at the mean remains.
+    """
+    uncertain = 0
+    for column in range(UNKNOWNS):
+        uncertain += root[column, column] > 0.0
+    i = 0
+    for column in range(UNKNOWNS):
+        if root[column, column] > 0.0 or (uncertain == 0 and column == 0):
+            for side in (math.sqrt(uncertain), -math.sqrt(uncertain)):
+                for j in range(UNKNOWNS):
+                    deviations[i, j] = side * root[j, column] if j >= column else 0.0
+                i += 1
+    return uncertain
+
+
+@equation
+def push_points(
+    mean: Array,
+    deviations: Array,
+    pairs: int,
+    moments: Array,
+    push: Push,
+    curved: bool,
+    ends: Array,
+) -> Moved:
+    """Push every point, write down theta and d at its end, and return the means."""
+    theta, d, slip, slipping, weight = 0.0, 0.0, 0.0, 0.0, 0.5 / pairs
+    point = np.empty(UNKNOWNS)
+    for i in range(2 * pairs):
+        for j in range(UNKNOWNS):
+            point[j] = mean[j] + deviations[i, j]
+        log_c = min(max(point[LOG_C], LEAST_LOG_C), MOST_LOG_C)
+        pressure = Pressure(math.exp(2.0 * log_c), point[GROWTH], point[SHAPE], moments)
+        ends[i, 0], ends[i, 1], point_slip = advance(
+            point[THETA], point[D], point[ALPHA], point[L], point[R], pressure, push, curved
+        )
+        theta += weight * ends[i, 0]
+        d += weight * ends[i, 1]
+        slip += weight * point_slip
+        slipping += weight * (point_slip != 0.0)
+    return Moved(theta, d, slip, slipping)
+
+
+@equation
+def motion_of(mean: Array, moved: Moved, push: Push, curved: bool) -> tuple[float, float, float]:
+    """Compute the turn of the object and way and direction of its contact [rad, m, rad]."""
+    l, r = mean[L], mean[R]
+    turn = moved.theta - mean[THETA]
+    middle = mean[THETA] + turn / 2.0
+    if curved:  # the tangent moves around the object, too
+        turn = (turn * (l + r) - moved.slip) / l
+    cos, sin = math.cos(middle), math.sin(middle)
+    aside = (cos * push.v_x + sin * push.v_y) * push.duration - moved.slip
+    forward = (cos * push.v_y - sin * push.v_x) * push.duration
+    return turn, math.hypot(aside, forward), math.atan2(aside, forward)
+
+
+@equation
+def change_motion(motion: Array, direction: float, turn_per_l: float, way: float) -> float:
+    """Follow the mean motion over some way, and return how far it has changed [rad].
+
+    The finger's trembling is no change, so the mean forgets over `LASTING`.
+    """
+    share, change = way / (way + LASTING), 0.0
+    for i, value in enumerate((direction, turn_per_l)):
+        if math.isnan(motion[i]):
+            motion[i] = value
+        change += abs(share * (value - motion[i]))
+        motion[i] += share * (value - motion[i])
+    return change
+
+
+@equation
+def gather(
+    covariance: Array, deviations: Array, pairs: int, ends: Array, theta: float, d: float
+) -> None:
+    """Put the covariances of theta and d together again from the points' ends."""
+    weight = 0.5 / max(pairs, 1)
+    for i in range(2 * pairs):
+        deviations[i, THETA], deviations[i, D] = ends[i, 0] - theta, ends[i, 1] - d
+    for j in (THETA, D):
+        for k in range(UNKNOWNS):
+            value = 0.0
+            for i in range(2 * pairs):
+                value += deviations[i, j] * deviations[i, k]
+            covariance[j, k] = covariance[k, j] = weight * value
+
+
+@equation
+def add_errors(
+    mean: Array,
+    covariance: Array,
+    moved: Moved,
+    turn: float,
+    way: float,
+    errors: ModelErrors,
+    curved: bool,
+) -> None:
+    """Add what an object's turn and slip may differ by from the model's.
+
+    Both errors last for a while, and so add up to more than independent ones of every push.
+    """
+    l, r, slipping = mean[L], mean[R], moved.slipping
+    lasting = LASTING / max(way, SHORTEST)
+    turn_variance = (errors.scatter * turn) ** 2 * lasting
+    spin = min(1.0, abs(turn) * l / max(way, SHORTEST))
+    cos, sin = cone_of_angle(mean[ALPHA])
+    slip_variance = (errors.skew * spin * 2.0 * sin * cos * slipping * way) ** 2 * lasting
+    if curved:
+        sticking = (1.0 - slipping) ** 2  # a tangent goes with the turn of a contact that sticks
+        added = (l**2 * turn_variance * sticking + slip_variance) / (l + r) ** 2
+        covariance[THETA, THETA] += added
+    else:
+        # A turn that differs from the model's rolls the contact on, and makes it slip: the
+        # centre of mass moves along the force, and the edge there goes with the turn.
+        steep = min(sin / max(cos, LEAST_COSINE), STEEPEST_FORCE)
+        lever = r + slipping * (l - math.copysign(steep, moved.slip) * mean[D])
+        covariance[THETA, THETA] += turn_variance
+        covariance[THETA, D] -= lever * turn_variance
+        covariance[D, THETA] -= lever * turn_variance
+        covariance[D, D] += lever * lever * turn_variance + slip_variance
+
+
 @compiled
 def predict(
     means: Array,
     covariances: Array,
     motions: Array,
     moments: Array,
-    v_x: float,
-    v_y: float,
-    duration: float,
-    scatter: float,
-    skew: float,
-    drift: float,
+    push: Push,
+    errors: ModelErrors,
     curved: bool,
 ) -> None:
     """Move all hypotheses on by a short push.
@@ -143,106 +286,29 @@ def predict(
         How the object moved in the last pushes, changed: direction of the contact's velocity in
         the frame of the edge [rad] and turn per l of its way [rad]; NaN before the first push.
     moments : ndarray, shape (3,)
-        As `resistance.resistance` takes them.
-    v_x, v_y : float
-        Velocity of the finger relative to the support [m/s].
-    duration : float
-        How long [s], more than 0.
-    scatter : float
-        Standard deviation of the turn itself, as a share of it, over 5 mm of way.
-    skew : float
-        Standard deviation of the angle between the force and the motion of the centre of mass,
-        over 5 mm of way, for a force at 45 degrees and a turn of 1 rad per l [rad].
-    drift : float
-        Standard deviation of the change of ln(c) while the motion changes by 1 rad; it grows with
-        the root of the change.
+        Second moments of the outline's area, see `Pressure`.
+    push : Push
+        The push, longer than 0 s.
+    errors : ModelErrors
+        How far the object may be from the model.
     curved : bool
         Whether the object is a disk about its centre of mass.
     """
     root = np.zeros((UNKNOWNS, UNKNOWNS))
-    points = np.empty((2 * UNKNOWNS, 2))
+    ends = np.empty((2 * UNKNOWNS, 2))
     deviations = np.empty((2 * UNKNOWNS, UNKNOWNS))
-    moved = np.empty(UNKNOWNS)
     for h in range(len(means)):
         mean, covariance = means[h], covariances[h]
         factorise(covariance, root)
-        # Of the points, those along what is known for certain are the mean itself.
-        uncertain = 0
-        for column in range(UNKNOWNS):
-            uncertain += root[column, column] > 0.0
-        count, weight = 2 * uncertain, 0.5 / max(uncertain, 1)
-        i, theta, d, slip, slips = 0, 0.0, 0.0, 0.0, 0.0
-        for column in range(UNKNOWNS):
-            if root[column, column] > 0.0 or (uncertain == 0 and column == 0):
-                for side in (math.sqrt(uncertain), -math.sqrt(uncertain)):
-                    for j in range(UNKNOWNS):
-                        deviations[i, j] = side * root[j, column] if j >= column else 0.0
-                        moved[j] = mean[j] + deviations[i, j]
-                    points[i, 0], points[i, 1], along = advance(
-                        moved[THETA],
-                        moved[D],
-                        math.exp(2.0 * min(max(moved[LOG_C], SMALLEST), LARGEST)),
-                        moved[ALPHA],
-                        moved[L],
-                        moved[R],
-                        moved[GROWTH],
-                        moved[SHAPE],
-                        moments,
-                        v_x,
-                        v_y,
-                        duration,
-                        curved,
-                    )
-                    theta += weight * points[i, 0]
-                    d += weight * points[i, 1]
-                    slip += weight * along
-                    slips += weight * (along != 0.0)
-                    i += 1
-        change, l, r = theta - mean[THETA], mean[L], mean[R]
-        turn = change
-        if curved:
-            turn = (change * (l + r) - slip) / l
-        middle = mean[THETA] + change / 2.0
-        cos, sin = math.cos(middle), math.sin(middle)
-        along = (cos * v_x + sin * v_y) * duration - slip
-        forward = (cos * v_y - sin * v_x) * duration
-        way = math.hypot(along, forward)
+        uncertain = place_points(root, deviations)
+        moved = push_points(mean, deviations, max(uncertain, 1), moments, push, curved, ends)
+        turn, way, direction = motion_of(mean, moved, push, curved)
         if way > 0.0:
-            # The finger's trembling is no change: what counts is the motion's mean over some way.
-            share, changed = way / (way + SMOOTH), 0.0
-            for i, value in enumerate((math.atan2(along, forward), turn * l / way)):
-                if math.isnan(motions[h, i]):
-                    motions[h, i] = value
-                changed += abs(share * (value - motions[h, i]))
-                motions[h, i] += share * (value - motions[h, i])
-            covariance[LOG_C, LOG_C] += drift**2 * changed
-        mean[THETA], mean[D] = theta, d
-        for i in range(count):
-            deviations[i, THETA], deviations[i, D] = points[i, 0] - theta, points[i, 1] - d
-        for j in (THETA, D):
-            for k in range(UNKNOWNS):
-                value = 0.0
-                for i in range(count):
-                    value += deviations[i, j] * deviations[i, k]
-                covariance[j, k] = covariance[k, j] = weight * value
-        # Both errors last for a while, and so add up to more than independent ones of every push.
-        lasting = SMOOTH / max(way, SHORTEST)
-        turned = (scatter * turn) ** 2 * lasting
-        spin = min(1.0, abs(turn) * l / max(way, SHORTEST))
-        cos, sin = cone_of_angle(mean[ALPHA])
-        skewed = (skew * spin * 2.0 * sin * cos * slips * way) ** 2 * lasting
-        if curved:
-            sticks = (1.0 - slips) ** 2  # a tangent goes with the turn of a contact that sticks
-            covariance[THETA, THETA] += (l**2 * turned * sticks + skewed) / (l + r) ** 2
-        else:
-            # A turn that differs from the model's rolls the contact on, and makes it slip: the
-            # centre of mass moves along the force, and the edge there goes with the turn.
-            steep = min(sin / max(cos, LEAST_COSINE), STEEPEST)
-            lever = r + slips * (l - math.copysign(steep, slip) * d)
-            covariance[THETA, THETA] += turned
-            covariance[THETA, D] -= lever * turned
-            covariance[D, THETA] -= lever * turned
-            covariance[D, D] += lever * lever * turned + skewed
+            change = change_motion(motions[h], direction, turn * mean[L] / way, way)
+            covariance[LOG_C, LOG_C] += errors.drift**2 * change
+        mean[THETA], mean[D] = moved.theta, moved.d
+        gather(covariance, deviations, uncertain, ends, moved.theta, moved.d)
+        add_errors(mean, covariance, moved, turn, way, errors, curved)
 
 
 @compiled

@@ -20,8 +20,8 @@ from tactile_push.estimation.pose import object_pose
 from tactile_push.estimation.prior import Prior
 from tactile_push.mechanics.compiled import Array
 
-ROUNDING = 1e-6  # of lengths and weights, in units of themselves
-EXCLUDED = 0.01  # an edge with that much of the best one's weight is no part of the intervals
+ALIKE = 1e-6  # of lengths and weights, in units of themselves
+EDGE_EXCLUDED = 0.01  # an edge with that much of the best one's weight is no part of the intervals
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,7 +121,7 @@ class ObjectEstimator:
         places: list[Edge] = []
         place_of: list[int] = []
         for edge in self.edges:
-            slack = ROUNDING * edge.length
+            slack = ALIKE * edge.length
             alike = [i for i, place in enumerate(places) if edge.same_place(place, slack)]
             place_of.append(alike[0] if alike else len(places))
             if not alike:
@@ -186,8 +186,8 @@ class ObjectEstimator:
         estimates = tuple(found[i] for i in self._place_of)
         weights = self._contenders.weights[self._place_of] * self._shares
         # Of equally likely edges the first, whatever rounding says.
-        best = int(np.argmax(weights > (1.0 - ROUNDING) * weights.max()))
-        likely = weights > EXCLUDED * weights.max()
+        best = int(np.argmax(weights > (1.0 - ALIKE) * weights.max()))
+        likely = weights > EDGE_EXCLUDED * weights.max()
         bounded = [possible[i] for i in self._place_of]
         d, c, mu_c = (
             Quantity(

@@ -20,7 +20,7 @@ D_COUNTS = (4, 40)  # the fewest and the most along an edge
 C_COUNT, ALPHA_COUNT = 3, 16  # how many share c and a finite friction
 NONE, SOME, STICKS = range(3)  # kinds of friction: mu_c = 0, between, infinite
 ROUND = (1.0, 0.0, 1.0)  # second moments of an area without preferred direction
-ROUNDING = 1e-6
+NEAR_ONE = 1e-6
 SLENDER = 1.5  # ratio of the principal second moments from which directions differ much
 SHARES = (0.25, 0.5, 0.25)  # of the kinds, before any data
 
@@ -75,7 +75,7 @@ class Prior:
         if not 0.0 <= 3.0 * self.l_sigma < self.l:
             raise ValueError(f'l_sigma: expected 0 to a third of l [m], got {self.l_sigma}')
         xx, xy, yy = self.moments
-        if not (xx > 0.0 and abs(xx * yy - xy * xy - 1.0) < ROUNDING):
+        if not (xx > 0.0 and abs(xx * yy - xy * xy - 1.0) < NEAR_ONE):
             raise ValueError(
                 f'moments: expected a positive form of determinant 1, got {xx, xy, yy}'
             )

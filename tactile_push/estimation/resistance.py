@@ -9,6 +9,7 @@ c^2 becomes, and when it spins c^2 has an end.
 """
 
 import math
+from typing import NamedTuple
 
 from tactile_push.mechanics.compiled import Array, equation
 from tactile_push.mechanics.motion import FREE, SLIP_LEFT, STICK, pushed_twist
@@ -20,22 +21,11 @@ SLOWEST = 1e-24  # squared speed of an object that only spins [m^2/s^2]
 LEAST = 0.1  # c^2 does not shrink to less than this share of it
 
 
-@equation
-def resistance(
-    v_x: float,
-    v_y: float,
-    omega: float,
-    c_squared: float,
-    growth: float,
-    shape: float,
-    moments: Array,
-) -> float:
-    """Give c^2 of a motion.
+class Pressure(NamedTuple):
+    """How the pressure under an object resists its turning.
 
     Parameters
     ----------
-    v_x, v_y, omega : float
-        Velocity of the object at its centre of mass, along tangent and normal [m/s, m/s, rad/s].
     c_squared : float
         c^2 of a load without preferred direction while the object hardly turns [m^2].
     growth : float
@@ -46,12 +36,27 @@ def resistance(
     moments : ndarray, shape (3,)
         Second moments of the area along the tangent, mixed and along the normal, divided by the
         root of their determinant.
-
-    Returns
-    -------
-    float
-        c^2 [m^2].
     """
+
+    c_squared: float
+    growth: float
+    shape: float
+    moments: Array
+
+
+class Push(NamedTuple):
+    """A straight push: velocity of the finger relative to the support [m/s] and duration [s]."""
+
+    v_x: float
+    v_y: float
+    duration: float
+
+
+@equation
+def resistance(v_x: float, v_y: float, omega: float, pressure: Pressure) -> float:
+    """Compute c^2 [m^2] of a motion of the centre of mass, along tangent and normal."""
+    c_squared, shape, growth = pressure.c_squared, pressure.shape, pressure.growth
+    moments = pressure.moments
     xx, xy, yy = moments[0], moments[1], moments[2]
     mean = 1.0 + shape * ((xx + yy) / 2.0 - 1.0)
     square = v_x * v_x + v_y * v_y
@@ -66,18 +71,7 @@ def resistance(
 
 @equation
 def cone_of_angle(alpha: float) -> tuple[float, float]:
-    """Give cosine and sine of half the angle of the friction cone.
-
-    Parameters
-    ----------
-    alpha : float
-        The angle [rad]; what is beyond 0 and pi/2 counts as the bound.
-
-    Returns
-    -------
-    cos_alpha, sin_alpha : float
-        Cosine and sine, neither negative.
-    """
+    """Return cos and sin of the friction cone's half angle, which counts as within 0 to pi/2."""
     if alpha >= RIGHT_ANGLE:
         return 0.0, 1.0
     if alpha <= 0.0:
@@ -93,10 +87,7 @@ def settled(
     l: float,
     cos_alpha: float,
     sin_alpha: float,
-    c_squared: float,
-    growth: float,
-    shape: float,
-    moments: Array,
+    pressure: Pressure,
 ) -> tuple[float, float, float]:
     """Find the c^2 with which a push moves the object so that this is its c^2.
 
@@ -113,8 +104,8 @@ def settled(
         Distance from the edge to the centre of mass [m].
     cos_alpha, sin_alpha : float
         The friction cone.
-    c_squared, growth, shape, moments
-        As `resistance` takes them.
+    pressure : Pressure
+        How the object resists turning.
 
     Returns
     -------
@@ -125,9 +116,9 @@ def settled(
     v_slip : float
         Velocity of slip [m/s], eq. (14).
     """
-    now = resistance(v_t, v_n, 0.0, c_squared, growth, shape, moments)
+    now = resistance(v_t, v_n, 0.0, pressure)
     _, _, omega, v_slip, mode = pushed_twist(v_t, v_n, d, -l, cos_alpha, sin_alpha, math.sqrt(now))
-    if mode == FREE or (growth == 0.0 and shape == 0.0):
+    if mode == FREE or (pressure.growth == 0.0 and pressure.shape == 0.0):
         return now, omega, v_slip
     steep, square = 0.0, d * d + l * l  # of the force, and B
     if mode != STICK:
@@ -140,7 +131,7 @@ def settled(
         forward = v_n - d * omega
         aside = v_t - l * omega if mode == STICK else steep * forward
         # Where one c^2 is too large the next is too small.
-        now = (now + resistance(aside, forward, omega, c_squared, growth, shape, moments)) / 2.0
+        now = (now + resistance(aside, forward, omega, pressure)) / 2.0
         omega = turn / max(now + square, LEAST * now)
     _, _, omega, v_slip, _ = pushed_twist(v_t, v_n, d, -l, cos_alpha, sin_alpha, math.sqrt(now))
     return now, omega, v_slip

@@ -21,7 +21,7 @@ LENGTH = 1  # of the piece [m]
 CURVATURE = 2  # of the path [1/m]: 0 along an edge, 1/r around a corner, 1/(R + r) along an arc
 TAU = 3  # angle of the tangent at the piece's start, in the object's frame [rad]
 T_X, T_Y = 4, 5  # the same tangent as a unit vector
-D, L = 6, 7  # the paper's d and l of the contact at the piece's start [m]
+D_START, L_START = 6, 7  # the paper's d and l of the contact at the piece's start [m]
 COLUMNS = 8
 
 TOUCH = 1e-12  # a gap up to this is a contact [m]
@@ -112,7 +112,7 @@ def contact(sigma: float, piece: int, path: Array, r: float) -> tuple[float, flo
         piece = piece_at(sigma, path)
         s = sigma - path[piece, SIGMA]
         s -= math.floor(sigma / path[-1, SIGMA]) * path[-1, SIGMA]
-    t_x, t_y, d, l = path[piece, T_X], path[piece, T_Y], path[piece, D], path[piece, L]
+    t_x, t_y, d, l = path[piece, T_X], path[piece, T_Y], path[piece, D_START], path[piece, L_START]
     curvature = path[piece, CURVATURE]
     if curvature == 0.0:
         return t_x, t_y, d + s, l
@@ -196,8 +196,8 @@ def clearance(pose: Pose, x_f: float, y_f: float, path: Array, r: float) -> tupl
         curvature, length = path[piece, CURVATURE], path[piece, LENGTH]
         t_x, t_y = path[piece, T_X], path[piece, T_Y]
         # The disk's centre seen from where the path's piece starts, along t and along -n.
-        along = t_x * p_x + t_y * p_y - path[piece, D]
-        outward = t_y * p_x - t_x * p_y - path[piece, L] - r
+        along = t_x * p_x + t_y * p_y - path[piece, D_START]
+        outward = t_y * p_x - t_x * p_y - path[piece, L_START] - r
         if curvature == 0.0:
             s = min(max(along, 0.0), length)
             distance = math.copysign(math.hypot(along - s, outward), outward)

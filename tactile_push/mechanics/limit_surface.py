@@ -17,7 +17,7 @@ from tactile_push.mechanics.exact_motion import (
 )
 from tactile_push.mechanics.support import Support
 
-ROUNDING = 1e-12  # of the support's places, relative to their distance from the origin
+ONE_PLACE = 1e-12  # of the support's places, relative to their distance from the origin
 
 
 @dataclass(frozen=True)
@@ -130,7 +130,7 @@ class ExactLimitSurface:
     def __post_init__(self) -> None:
         offsets = self.support.points - self.support.centre
         size = np.abs(self.support.points).max() + self.support.c
-        if not np.abs(offsets[self.support.loads > 0.0]).max() > ROUNDING * size:
+        if not np.abs(offsets[self.support.loads > 0.0]).max() > ONE_PLACE * size:
             raise ValueError(
                 'support: expected loads in more than one place, got all at '
                 f'{self.support.centre} m'

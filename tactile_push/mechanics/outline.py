@@ -20,13 +20,13 @@ from tactile_push.mechanics.compiled import Array
 from tactile_push.mechanics.contact import (
     COLUMNS,
     CURVATURE,
+    D_START,
+    L_START,
     LENGTH,
     SIGMA,
     T_X,
     T_Y,
     TAU,
-    D,
-    L,
     clearance,
     contact,
 )
@@ -243,7 +243,7 @@ class Outline:
         path[:-1, CURVATURE] = turn / lengths
         path[:-1, TAU] = tau
         path[:-1, T_X], path[:-1, T_Y] = cos, sin
-        path[:-1, D], path[:-1, L] = x * cos + y * sin, x * sin - y * cos
+        path[:-1, D_START], path[:-1, L_START] = x * cos + y * sin, x * sin - y * cos
         path[-1] = path[0]
         path[-1, SIGMA] += lengths.sum()
         path[-1, TAU] += 2.0 * math.pi
@@ -281,7 +281,7 @@ class Outline:
         piece = int(np.searchsorted(path[:-1, TAU], turned - ROUNDING))
         if piece == len(path) - 1 or path[piece, TAU] > turned + ROUNDING:
             piece -= 1
-        lower, upper = path[piece, D], path[piece, D] + path[piece, LENGTH]
+        lower, upper = path[piece, D_START], path[piece, D_START] + path[piece, LENGTH]
         if path[piece, CURVATURE] > 0.0:
             turn = max(turned - path[piece, TAU], 0.0)
             sigma = path[piece, SIGMA] + turn / path[piece, CURVATURE]

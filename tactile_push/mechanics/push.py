@@ -26,7 +26,7 @@ from tactile_push.mechanics.exact_motion import exact_pushed_twist
 from tactile_push.mechanics.motion import FREE, pushed_twist
 
 TOLERANCE = 1e-7  # estimated error of a step, of the angle [rad] and of sigma by the path's radius
-SMOOTH = 0.03  # weight of the estimate of order 2 where nothing tells of a kink
+SMOOTH_SHARE = 0.03  # weight of the estimate of order 2 where nothing tells of a kink
 SMALLEST_STEP = 1e-9  # of the push; how finely the end of contact is located
 
 
@@ -135,7 +135,7 @@ def push_body(
         piece_5 = piece_at(sigma_5, path)
         smooth = mode_2 == mode and mode_3 == mode and mode_4 == mode and mode_5 == mode
         if smooth and piece_5 == piece:
-            bend *= SMOOTH
+            bend *= SMOOTH_SHARE
         error = max(error, bend) / TOLERANCE
         smallest = step <= SMALLEST_STEP * duration
         if mode_5 == FREE and not smallest:

@@ -16,7 +16,7 @@ from tactile_push.mechanics.outline import Outline
 from tactile_push.mechanics.push import move_finger
 from tactile_push.mechanics.support import Support
 
-ROUNDING = 1e-6  # how far outside the outline a support point may be, in units of its length
+OVERHANG = 1e-6  # how far outside the outline a support point may be, in units of its length
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +89,7 @@ class Slider:
             over because the centre of mass lies beside all support.
         """
         loaded = support.points[support.loads > 0.0]
-        beyond = ~outline.contains(loaded, ROUNDING * outline.length)
+        beyond = ~outline.contains(loaded, OVERHANG * outline.length)
         if beyond.any():
             raise ValueError(
                 f'support: expected points under the object, got {loaded[beyond][0]} m outside'
@@ -157,7 +157,7 @@ class Slider:
         body = self.body(r)
         pose = Pose(*map(float, pose))
         sigma, gap = clearance(pose, *start, body.path, r)
-        if gap < -ROUNDING * self.outline.length:
+        if gap < -OVERHANG * self.outline.length:
             raise ValueError(f'start: expected a finger clear of the object, got a gap of {gap} m')
         way = end[0] - start[0], end[1] - start[1]
         cos_alpha, sin_alpha = friction_cone(mu_c)
@@ -172,7 +172,7 @@ def _check_balance(points: Array, centre_of_mass: tuple[float, float]) -> None:
         raise ValueError(f'centre_of_mass: expected a finite point [m], got {centre_of_mass}')
     offset = points - centre_of_mass
     reach = np.hypot(offset[:, 0], offset[:, 1])
-    far = reach > ROUNDING * reach.max()
+    far = reach > OVERHANG * reach.max()
     if not far.all():
         return  # it rests on one of the points
     angles = np.sort(np.arctan2(offset[:, 1], offset[:, 0]))

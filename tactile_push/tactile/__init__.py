@@ -14,7 +14,7 @@ from tactile_push.tactile.hemisphere import (
 from tactile_push.tactile.jumps import JUMP_TOLERANCE, MAX_THETA_RATE, JumpGuard
 from tactile_push.tactile.pole_history import BELIEVED, PoleHistory
 from tactile_push.tactile.reading import NO_CONTACT, Reading
-from tactile_push.tactile.record import reading_values
+from tactile_push.tactile.reading_state import reading_values
 
 __all__ = [
     'BELIEVED',

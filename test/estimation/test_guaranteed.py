@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from tactile_push.estimation import GuaranteedSet, ModelBounds, Prior
-from tactile_push.estimation.cells import FACES, push_cells, split_cells
+from tactile_push.estimation.cells import FACES, Bounds, Interval, push_cells, split_cells
+from tactile_push.estimation.resistance import Push
 from tactile_push.mechanics import Outline, Slider, Support, friction_cone, push, tangent_angle
 
 RADIUS = 0.0135
@@ -54,9 +55,15 @@ def test_the_truth_stays_in_its_cell(mu_c, support):
             share, angle = 0.6, math.radians(15.0)  # of this c, not of the best one
         cell = box_around(rng, theta, d, slider.c, mu_c)
 
-        left = push_cells(
-            *(cell, v_x, 0.005, 0.1, -0.025, 0.025, HALF, HALF, RADIUS, RADIUS, 0.0), share, angle
+        bounds = Bounds(
+            Interval(-0.025, 0.025),
+            Interval(HALF, HALF),
+            Interval(RADIUS, RADIUS),
+            0.0,
+            share,
+            angle,
         )
+        left = push_cells(cell, Push(v_x, 0.005, 0.1), bounds)
 
         theta, d = pushed(slider, theta, d, mu_c, v_x)
         assert left == 1
@@ -74,10 +81,11 @@ def test_a_sticking_contact_stays_in_its_cell_where_the_finger_moves_along_the_e
         for i, (value, width) in enumerate(zip(values, (1e-4, 1e-5, 1e-7, 0.0), strict=True)):
             cell[0, 2 * i], cell[0, 2 * i + 1] = value - width, value + width
 
-        left = push_cells(
-            *(cell, 0.0, 0.005, 0.1, -0.03, 0.03, HALF, HALF, RADIUS, RADIUS, 0.0),
-            *(0.3, math.radians(15.0)),
+        bounds = Bounds(
+            *(Interval(-0.03, 0.03), Interval(HALF, HALF), Interval(RADIUS, RADIUS)),
+            *(0.0, 0.3, math.radians(15.0)),
         )
+        left = push_cells(cell, Push(0.0, 0.005, 0.1), bounds)
 
         theta, d = pushed(slider, theta, d, math.inf, 0.0)
         assert left == 1

@@ -7,18 +7,20 @@ import numpy as np
 import pytest
 
 from tactile_push.estimation.hypotheses import (
+    LASTING,
     LOG_C,
-    SMOOTH,
     THETA,
     UNKNOWNS,
     D,
     L,
+    ModelErrors,
     advance,
     correct,
     predict,
 )
 from tactile_push.estimation.mixture import quantile
 from tactile_push.estimation.prior import ROUND
+from tactile_push.estimation.resistance import Pressure, Push
 from tactile_push.mechanics import Outline, friction_cone, push, tangent_angle
 
 RADIUS = 0.0135
@@ -27,6 +29,16 @@ PATH = BLOCK.path(RADIUS)
 HALF = 0.02375
 LOG = math.log(0.0187)
 MOMENTS = np.array(ROUND)
+
+
+def advanced(theta, d, c_squared, alpha, l, r, growth, shape, moments, v_x, v_y, duration, curved):
+    pressure, once = Pressure(c_squared, growth, shape, moments), Push(v_x, v_y, duration)
+    return advance(theta, d, alpha, l, r, pressure, once, curved)
+
+
+def pushed(means, covariances, motions, moments, v_x, v_y, duration, scatter, skew, drift, curved):
+    once, errors = Push(v_x, v_y, duration), ModelErrors(scatter, skew, drift)
+    predict(means, covariances, motions, moments, once, errors, curved)
 
 
 def exactly(theta, d, c, mu_c, v_x, v_y, duration):
@@ -45,7 +57,7 @@ def test_a_push_is_that_of_the_mechanics(mu_c):
     for _ in range(40):
         theta, d = rng.uniform(-0.4, 0.4), rng.uniform(-0.02, 0.02)
         c, v_x = rng.uniform(0.005, 0.036), rng.uniform(-0.004, 0.004)
-        found = advance(
+        found = advanced(
             *(theta, d, c * c, math.atan(mu_c), HALF, RADIUS, 0.0, 0.0, MOMENTS),
             *(v_x, 0.005, 0.1, False),
         )
@@ -66,12 +78,12 @@ def test_mean_and_covariance_are_those_of_many_pushed_objects():
     means, covariances = one(middle, deviations)
 
     moments = np.array([2.0, 0.0, 0.5])
-    predict(means, covariances, still(), moments, 0.001, 0.005, 0.1, 0.0, 0.0, 0.0, False)
+    pushed(means, covariances, still(), moments, 0.001, 0.005, 0.1, 0.0, 0.0, 0.0, False)
 
     samples = rng.normal(middle, deviations, (4000, UNKNOWNS))
     for row in samples:
         theta, d, log_c, *others = row
-        row[[THETA, D]] = advance(
+        row[[THETA, D]] = advanced(
             *(theta, d, math.exp(2.0 * log_c), *others, moments, 0.001, 0.005, 0.1), False
         )[:2]
     scale = samples.std(axis=0)
@@ -90,7 +102,7 @@ def test_what_is_known_for_certain_stays_certain():
         (0.2, -0.006, LOG, math.pi / 2.0, HALF, RADIUS, 0.0, 0.0), (0.0,) * UNKNOWNS
     )
 
-    predict(means, covariances, still(), MOMENTS, 0.0, 0.005, 0.1, 0.0, 0.0, 0.0, False)
+    pushed(means, covariances, still(), MOMENTS, 0.0, 0.005, 0.1, 0.0, 0.0, 0.0, False)
 
     assert covariances == pytest.approx(0.0, rel=0, abs=1e-20)
     assert means[0, :2] == pytest.approx(
@@ -102,7 +114,7 @@ def test_scatter_adds_what_it_says():
     certain = (0.2, -0.006, LOG, math.pi / 2.0, HALF, RADIUS, 0.0, 0.0)
     means, covariances = one(certain, (0.0,) * UNKNOWNS)
 
-    predict(means, covariances, still(), MOMENTS, 0.0, 0.005, 0.1, 0.1, 0.0, 0.01, False)
+    pushed(means, covariances, still(), MOMENTS, 0.0, 0.005, 0.1, 0.1, 0.0, 0.01, False)
 
     # A tenth of what it turns in 5 mm, which are ten such pushes.
     turn = means[0, THETA] - 0.2
@@ -122,7 +134,7 @@ def test_scatter_over_a_way_does_not_depend_on_how_often_one_looks():
         motions = still()
         for _ in range(count):
             push_once = 0.0, 0.005, 1.0 / count, 0.1, 0.0, 0.0, False
-            predict(means, covariances, motions, MOMENTS, *push_once)
+            pushed(means, covariances, motions, MOMENTS, *push_once)
         spreads.append(math.sqrt(covariances[0, THETA, THETA]))
     assert spreads[0] == pytest.approx(spreads[1], rel=0.05)
 
@@ -132,13 +144,13 @@ def test_slip_goes_with_a_turn_that_scatters(mu_c, d, v_x):
     # With another c the object turns and slips otherwise, in the same ratio.
     alpha = math.atan(mu_c)
     ends = [
-        advance(*(0.2, d, c * c, alpha, HALF, RADIUS, 0.0, 0.0, MOMENTS, v_x, 0.005, 0.02), False)
+        advanced(*(0.2, d, c * c, alpha, HALF, RADIUS, 0.0, 0.0, MOMENTS, v_x, 0.005, 0.02), False)
         for c in (0.0187, 0.0188)
     ]
     assert ends[0][2] != 0.0
     means, covariances = one((0.2, d, LOG, alpha, HALF, RADIUS, 0.0, 0.0), (0.0,) * UNKNOWNS)
 
-    predict(means, covariances, still(), MOMENTS, v_x, 0.005, 0.02, 0.1, 0.0, 0.0, False)
+    pushed(means, covariances, still(), MOMENTS, v_x, 0.005, 0.02, 0.1, 0.0, 0.0, False)
 
     ratio = covariances[0, THETA, D] / covariances[0, THETA, THETA]
     assert ratio == pytest.approx((ends[1][1] - ends[0][1]) / (ends[1][0] - ends[0][0]), rel=0.02)
@@ -150,7 +162,7 @@ def test_drift_grows_with_the_change_of_motion():
     means, covariances = one(certain, (0.0,) * UNKNOWNS)
     motions = still()
     push_once = 0.0, 0.005, 0.1, 0.0, 0.0, 0.01, False
-    predict(means, covariances, motions, MOMENTS, *push_once)
+    pushed(means, covariances, motions, MOMENTS, *push_once)
     # The finger goes straight on: the contact, which sticks, leaves along theta from the normal.
     direction, turning = motions[0]
     turn = means[0, THETA] - 0.2
@@ -158,9 +170,9 @@ def test_drift_grows_with_the_change_of_motion():
     assert turning == pytest.approx(turn * HALF / 0.0005)
 
     motions[0] += 0.3, -0.1
-    predict(means, covariances, motions, MOMENTS, *push_once)
+    pushed(means, covariances, motions, MOMENTS, *push_once)
 
-    share = 0.0005 / (0.0005 + SMOOTH)
+    share = 0.0005 / (0.0005 + LASTING)
     assert covariances[0, LOG_C, LOG_C] == pytest.approx(0.01**2 * share * 0.4, rel=0.1)
 
 
@@ -169,14 +181,14 @@ def test_skew_moves_a_slipping_contact_of_an_object_that_turns():
         (0.0, 0.01, LOG, math.atan(0.2), HALF, RADIUS, 0.0, 0.0), (0.0,) * UNKNOWNS
     )
 
-    predict(means, covariances, still(), MOMENTS, -0.004, 0.005, 0.1, 0.0, 0.1, 0.0, False)
+    pushed(means, covariances, still(), MOMENTS, -0.004, 0.005, 0.1, 0.0, 0.1, 0.0, False)
 
     slip = means[0, D] - 0.01 + RADIUS * means[0, THETA]
     assert abs(slip) > 1e-5
     way = math.hypot(-0.0004 - slip, 0.0005)
     turn = abs(means[0, THETA]) * HALF / way
     aside = 0.1 * turn * math.sin(2.0 * math.atan(0.2))  # an angle that lasts for 5 mm
-    assert covariances[0, D, D] == pytest.approx(aside**2 * way * SMOOTH, rel=0.05)
+    assert covariances[0, D, D] == pytest.approx(aside**2 * way * LASTING, rel=0.05)
     assert covariances[0, THETA, THETA] == pytest.approx(0.0, abs=1e-20)
 
 

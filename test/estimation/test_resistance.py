@@ -9,7 +9,7 @@ import pytest
 from tactile_push.estimation import edges_of
 from tactile_push.estimation.hypotheses import advance
 from tactile_push.estimation.prior import ROUND
-from tactile_push.estimation.resistance import cone_of_angle, resistance, settled
+from tactile_push.estimation.resistance import Pressure, Push, cone_of_angle, resistance, settled
 from tactile_push.mechanics import (
     ExactLimitSurface,
     Outline,
@@ -56,7 +56,7 @@ def test_an_object_that_hardly_turns_resists_by_the_load_along_its_way(corners):
         )
         expected = measured(corners, turn @ direction, 1e-3)
 
-        found = resistance(*direction, 1e-3, c_squared, 1.9, 1.0, np.array(edge.moments))
+        found = resistance(*direction, 1e-3, Pressure(c_squared, 1.9, 1.0, np.array(edge.moments)))
 
         assert found == pytest.approx(expected, rel=0.02)
 
@@ -65,12 +65,13 @@ def test_growth_is_that_of_a_block_under_uniform_pressure():
     # As far as a push can turn it, for its centre moves with more than half of the finger's way.
     still = measured(BLOCK, (0.0, 1.0), 1e-3)
     for rate in (10.0, 25.0, 50.0, 75.0):
-        grown = resistance(0.0, 1.0, rate, still, 1.9, 0.0, MOMENTS)
+        grown = resistance(0.0, 1.0, rate, Pressure(still, 1.9, 0.0, MOMENTS))
         assert grown == pytest.approx(measured(BLOCK, (0.0, 1.0), rate), rel=0.06)
 
 
 def test_without_growth_and_shape_it_is_an_ellipsoid():
-    assert resistance(0.3, 1.0, 40.0, 2e-4, 0.0, 0.0, np.array([4.0, 0.0, 0.25])) == 2e-4
+    pressure = Pressure(2e-4, 0.0, 0.0, np.array([4.0, 0.0, 0.25]))
+    assert resistance(0.3, 1.0, 40.0, pressure) == 2e-4
 
 
 @pytest.mark.parametrize('mu_c', [0.0, 0.3, math.inf])
@@ -82,10 +83,11 @@ def test_motion_and_resistance_agree(mu_c):
         c_squared, growth, shape = rng.uniform(0.01, 0.03) ** 2, rng.uniform(0.0, 3.0), 0.3
         cone = cone_of_angle(math.atan(mu_c))
 
-        now, omega, v_slip = settled(v_t, 0.005, d, l, *cone, c_squared, growth, shape, moments)
+        pressure = Pressure(c_squared, growth, shape, moments)
+        now, omega, v_slip = settled(v_t, 0.005, d, l, *cone, pressure)
 
         v_ct, v_cn = v_t - v_slip - l * omega, 0.005 - d * omega  # of the centre of mass
-        found = resistance(v_ct, v_cn, omega, c_squared, growth, shape, moments)
+        found = resistance(v_ct, v_cn, omega, pressure)
         assert now == pytest.approx(found, rel=0.1)
         if v_slip == 0.0:
             expected = sticking_twist(v_t, 0.005, d, -l, math.sqrt(now))[2]
@@ -116,8 +118,8 @@ def test_a_block_under_uniform_pressure_is_followed_through_a_long_slip():
             rows.append(now)
             for _ in range(4):
                 now = advance(
-                    *(*now, c * c, 0.0, 0.02375, RADIUS, growth, 0.0, MOMENTS),
-                    *(v_x, 0.005, 0.025, False),
+                    *(*now, 0.0, 0.02375, RADIUS, Pressure(c * c, growth, 0.0, MOMENTS)),
+                    *(Push(v_x, 0.005, 0.025), False),
                 )[:2]
         errors = np.abs(np.array(rows) - truth).max(axis=0)
         return math.degrees(errors[0]), 1e3 * errors[1]
