@@ -37,7 +37,7 @@ def add(commands: Commands) -> None:
     option(
         '--band-deg',
         type=number('degrees between 0 and 180', 0.0, 180.0, closed=False),
-        default=math.degrees(TOLERANCE),
+        default=round(math.degrees(TOLERANCE), 9),
         metavar='DEG',
         help='how near to its desired value theta counts as settled (default: %(default)g)',
     )

@@ -3,12 +3,31 @@
 """`tactile_push simulate`: one object under the control law or open loop."""
 
 import argparse
-import json
 import math
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from tactile_push.cli.arguments import Commands, number, picture, steps
+from tactile_push.cli.arguments import Commands, Refused, number, picture, steps
+from tactile_push.paper import (
+    BLOCK,
+    BLOCK_DEPTH,
+    BLOCK_EDGE,
+    D_INITIAL,
+    DISK,
+    DISK_RADIUS,
+    KD,
+    KP,
+    THETA_DESIRED,
+    THETA_INITIAL,
+    TOLERANCE,
+)
+
+if TYPE_CHECKING:
+    from tactile_push.mechanics import Outline, Support
+    from tactile_push.simulation import RigConfig, Rollout
 
 
 def add(commands: Commands) -> None:
@@ -21,9 +40,7 @@ def add(commands: Commands) -> None:
         formatter_class=argparse.ArgumentDefaultsHelpFormatter,
     )
     option = simulate.add_argument
-    option(
-        '--object', default='block', metavar='block|disk|FILE', help='what is pushed; JSON files'
-    )
+    option('--object', default=BLOCK, metavar='block|disk|FILE', help='what is pushed; JSON files')
     option(
         '--support',
         default='uniform',
@@ -34,23 +51,25 @@ def add(commands: Commands) -> None:
     friction = number('a coefficient of friction of 0 or more, or inf', 0.0, math.inf)
     option('--mu-c', type=friction, default=math.inf, metavar='X|inf', help='finger on object')
     gain = number('a finite gain of 0 or more', 0.0, sys.float_info.max)
-    option('--kp', type=gain, default=0.05, metavar='X', help='proportional gain [rad/rad]')
-    option('--kd', type=gain, default=5.0, metavar='X', help='derivative gain [rad/rad]')
+    option('--kp', type=gain, default=KP, metavar='X', help='proportional gain [rad/rad]')
+    option('--kd', type=gain, default=KD, metavar='X', help='derivative gain [rad/rad]')
     edge = number('degrees between -90 and 90', -90.0, 90.0, closed=False)
-    option('--theta0-deg', type=edge, default=20.0, metavar='DEG', help='edge at the start')
+    start = math.degrees(THETA_INITIAL)
+    option('--theta0-deg', type=edge, default=start, metavar='DEG', help='edge at the start')
     length = number('millimetres', -sys.float_info.max, sys.float_info.max)
     option(
         '--d0-mm',
         type=length,
         default=argparse.SUPPRESS,
         metavar='MM',
-        help='contact along the edge at the start (default: -6 for the block, otherwise the '
-        'contact nearest to d = 0)',
+        help=f'contact along the edge at the start (default: {1e3 * D_INITIAL:g} for the block, '
+        'otherwise the contact nearest to d = 0)',
     )
     ahead = number('degrees between 0 and 180', 0.0, 180.0, closed=False)
     option('--phi0-deg', type=ahead, default=90.0, metavar='DEG', help='first push angle')
     any_angle = number('degrees between -180 and 180', -180.0, 180.0)
-    option('--theta-desired-deg', type=any_angle, default=-10.0, metavar='DEG', help='wanted edge')
+    wanted = math.degrees(THETA_DESIRED)
+    option('--theta-desired-deg', type=any_angle, default=wanted, metavar='DEG', help='wanted edge')
     option('--steps', type=steps, default=600, metavar='N', help='control periods of 0.1 s')
     option('--open-loop', action='store_true', help='push at the first angle all the time')
     option(
@@ -72,45 +91,133 @@ def add(commands: Commands) -> None:
 def _simulate(options: argparse.Namespace) -> int:
     from rich.console import Console
 
-    d0, json_file, plot = (getattr(options, name, None) for name in ('d0_mm', 'json', 'plot'))
+    from tactile_push.cli.output import write_json
+    from tactile_push.control import settle_step
+
+    json_file, plot = (getattr(options, name, None) for name in ('json', 'plot'))
     try:
         with Console(stderr=True).status('simulating (the first time, compiling)'):
-            from tactile_push.simulation import case as simulate
-
-            done = simulate.simulate(
-                options.object,
-                options.support,
-                exact=options.surface == 'exact',
-                mu_c=options.mu_c,
-                theta=math.radians(options.theta0_deg),
-                d=None if d0 is None else d0 / 1000.0,
-                phi=math.radians(options.phi0_deg),
-                theta_desired=math.radians(options.theta_desired_deg),
-                kp=options.kp,
-                kd=options.kd,
-                steps=options.steps,
-                open_loop=options.open_loop,
-            )
+            run, config = _run(options)
+        settled = None
+        if run.end == 'done':
+            settled = settle_step(run.theta, math.radians(options.theta_desired_deg), TOLERANCE)
         if json_file is not None:
-            text = json.dumps(done.as_json()) + '\n'
-            if json_file == '-':
-                sys.stdout.write(text)
-            else:
-                with simulate.naming('--json', json_file):
-                    Path(json_file).write_text(text)
+            with _naming('--json', json_file):
+                write_json(json_file, _as_json(run, config, settled))
         if plot is not None:
-            from tactile_push.figures import plot_history
+            from tactile_push.figures import plot_history  # which loads matplotlib
 
-            run, wanted = done.run, done.theta_desired
-            history = run.theta, run.phi, wanted, simulate.BAND, done.settle_step
-            with simulate.naming('--plot', plot):
-                plot_history({'': history}, [plot])
+            wanted = math.radians(options.theta_desired_deg)
+            with _naming('--plot', plot):
+                plot_history({'': (run.theta, run.phi, wanted, TOLERANCE, settled)}, [plot])
     except ValueError as error:
-        print(f'tactile_push simulate: {error}', file=sys.stderr)
-        return 2
+        raise Refused(error) from None
     if json_file != '-':
-        print(simulate.summary(done))
-    if done.run.end != 'done':
-        print(f'tactile_push simulate: {done.run.end}', file=sys.stderr)
-        return 1
+        _print(run, config, settled, options.theta_desired_deg)
+    if run.end != 'done':
+        raise Refused(run.end, status=1)
     return 0
+
+
+def _run(options: argparse.Namespace) -> 'tuple[Rollout, RigConfig]':
+    """Simulate the run that the options ask for."""
+    from tactile_push.control import PushLaw
+    from tactile_push.mechanics import Slider
+    from tactile_push.simulation import RigConfig, rollout
+
+    outline, centre_of_mass = _outline(options.object)
+    slider = Slider.on(
+        outline,
+        _support(options.support, outline, centre_of_mass),
+        exact=options.surface == 'exact',
+        centre_of_mass=centre_of_mass,
+    )
+    d = D_INITIAL if options.object == BLOCK else None
+    if hasattr(options, 'd0_mm'):
+        d = options.d0_mm / 1000.0
+    config = RigConfig(slider, options.mu_c, math.radians(options.theta0_deg), d)
+    phi = math.radians(options.phi0_deg)
+    law = PushLaw(options.kp, options.kd, math.radians(options.theta_desired_deg))
+    if not options.open_loop and not law.phi_min <= phi <= law.phi_max:
+        raise ValueError(
+            f'phi: expected {law.phi_min} to {law.phi_max} rad, the bounds of the law, got {phi}'
+        )
+    law.reset(phi)
+    return rollout(config, phi if options.open_loop else law, options.steps), config
+
+
+def _as_json(run: 'Rollout', config: 'RigConfig', settled: int | None) -> dict[str, Any]:
+    """Return arrays with a value for the start of every step, and what is true of the run."""
+    from tactile_push.mechanics import MODES
+
+    return {
+        **{name: getattr(run, name).tolist() for name in ('theta', 'phi', 'd', 'x', 'y')},
+        'mode': [MODES[mode] for mode in run.mode],
+        'c': config.slider.c,
+        'settle_step': settled,
+        'end': run.end,
+    }
+
+
+def _print(run: 'Rollout', config: 'RigConfig', settled: int | None, wanted_deg: float) -> None:
+    from tactile_push.mechanics import MODES
+
+    steps = len(run.theta) - 1
+    counts = {name: int((run.mode[:steps] == mode).sum()) for mode, name in enumerate(MODES)}
+    modes = ', '.join(f'{name} {count}' for name, count in counts.items() if count)
+    within = f'within {math.degrees(TOLERANCE):.0f}° of {wanted_deg:g}°'
+    print(
+        f'c          {1000.0 * config.slider.c:.2f} mm',
+        f'steps      {steps} ({modes})' if modes else f'steps      {steps}',
+        f'settled    {"never" if settled is None else f"step {settled}"}, {within}',
+        f'theta      {math.degrees(run.theta[0]):.2f}° -> {math.degrees(run.theta[-1]):.2f}°',
+        f'phi        {math.degrees(run.phi[0]):.2f}° -> {math.degrees(run.phi[-1]):.2f}°',
+        f'd          {1000.0 * run.d[0]:.3f} mm -> {1000.0 * run.d[-1]:.3f} mm',
+        sep='\n',
+    )
+
+
+@contextmanager
+def _naming(option: str, file: object) -> Iterator[None]:
+    """Turn an OSError into a ValueError that names the option and its file."""
+    try:
+        yield
+    except OSError as error:
+        raise ValueError(f'{option}: {file}: {error.strerror}') from None
+
+
+def _outline(thing: str) -> 'tuple[Outline, tuple[float, float] | None]':
+    """Return an object's outline and its centre of mass, if that is known."""
+    from tactile_push.mechanics import Outline
+    from tactile_push.simulation import read_object
+
+    if thing == BLOCK:
+        return Outline.rectangle(BLOCK_EDGE, BLOCK_DEPTH), None
+    if thing == DISK:
+        return Outline.circle(DISK_RADIUS), None
+    with _naming('--object', thing):
+        return read_object(Path(thing))
+
+
+def _support(
+    name: str, outline: 'Outline', centre_of_mass: tuple[float, float] | None
+) -> 'Support':
+    """Return what the object rests on."""
+    from tactile_push.mechanics import Outline, Support
+    from tactile_push.simulation import read_support
+
+    if name in ('corners', 'uniform', 'rim'):
+        return getattr(Support, name)(outline)
+    if name.startswith('circle:'):
+        try:
+            radius = float(name.removeprefix('circle:'))
+        except ValueError:
+            raise ValueError(f'support: expected circle:RADIUS_M, got {name}') from None
+        centre = centre_of_mass or Support.uniform(outline).centre
+        support = Support.circle(radius, *centre)
+        rim = Outline.circle(radius).points(radius / 16.0) + centre
+        if not outline.contains(rim, 1e-9 * outline.length).all():
+            raise ValueError(f'support: expected a circle under the object, got {name}')
+        return support
+    with _naming('--support', name):
+        return read_support(Path(name))

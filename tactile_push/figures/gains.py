@@ -14,13 +14,11 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from tactile_push.figures.style import BLACK, RED, TWO_COLUMNS, new_figure, styled
+from tactile_push.paper import D_INITIAL, FIGURE_8_GAINS, THETA_DESIRED, TOLERANCE
 from tactile_push.simulation import Servo, paper_block, rollouts
 
 STEPS = 600
 LATEST = 500  # step from which theta must stay near
-D_INITIAL = -0.006  # [m]
-THETA_DESIRED = math.radians(-10.0)
-BAND = math.radians(3.0)
 KP = np.geomspace(0.005, 5.0, 61)
 KD = np.geomspace(0.5, 50.0, 41)
 FRICTIONS = (0.0, 0.3, math.inf)
@@ -29,7 +27,6 @@ SERVOS = {
     'lag 0.1 s': Servo(time_constant=0.1),
     'lag 0.1 s, delay 0.3 s': Servo(time_constant=0.1, delay=0.3),
 }
-GAINS = ((0.02, 2.0), (0.05, 5.0), (0.2, 10.0))  # of figure 8, in the middle the paper's best
 LEVELS = (20, 50, 100, 150, 200, 300, 400, LATEST)
 DOT: dict[str, Any] = {
     'marker': 'o',
@@ -132,10 +129,10 @@ def settle_steps(mu_c: float, servo: Servo | None) -> npt.NDArray[np.int64]:
         theta_desired=THETA_DESIRED,
         steps=STEPS,
         servo=servo,
-        band=BAND,
+        band=TOLERANCE,
         history=True,
     )
-    near = np.abs(runs.theta - THETA_DESIRED) <= BAND
+    near = np.abs(runs.theta - THETA_DESIRED) <= TOLERANCE
     settles = (runs.settle_step >= 0) & (runs.settle_step <= LATEST)
     # Still on its way, rather than there and away again.
     creeps = ~near[:, :LATEST].any(axis=1) & (runs.steps == STEPS)
@@ -154,5 +151,5 @@ def _draw_outcome(
     swinging = np.where(step == SWINGS, 1.0, 0.0)
     with matplotlib.rc_context({'hatch.linewidth': 0.4, 'hatch.color': RED}):
         axes.contourf(KP, KD, swinging, [0.5, 1.5], colors=[SWINGING], hatches=['////'], zorder=1.5)
-    for (kp, kd), size in zip(GAINS, (3.0, 6.0, 3.0), strict=True):
+    for (kp, kd), size in zip(FIGURE_8_GAINS, (3.0, 6.0, 3.0), strict=True):
         axes.plot(kp, kd, **DOT, markersize=size, zorder=3.0)

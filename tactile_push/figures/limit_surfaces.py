@@ -33,8 +33,9 @@ from tactile_push.mechanics import (
     Support,
 )
 from tactile_push.mechanics.compiled import Array
+from tactile_push.paper import BLOCK_DEPTH, BLOCK_EDGE
 
-BLOCK = Outline.rectangle(0.05, 0.0475)  # the paper's
+BLOCK = Outline.rectangle(BLOCK_EDGE, BLOCK_DEPTH)
 ELEVATION, AZIMUTH = 20.0, 38.0  # where fig. 2 is seen from [deg]
 LONGITUDE, LATITUDE = 1.35, 0.6  # of the wrench of fig. 2 on the unit sphere [rad]
 SECTION_POINTS = 10_000  # that stand for the uniform pressure

@@ -24,16 +24,20 @@ from tactile_push.figures.style import (
     new_figure,
     styled,
 )
+from tactile_push.paper import (
+    C_MAX,
+    C_MIN,
+    C_UNIFORM,
+    CONTROL_PERIOD,
+    FIGURE_7_D,
+    FIGURE_7_PUSHES,
+    FIGURE_8_GAINS,
+    THETA_DESIRED,
+)
 from tactile_push.simulation import RigConfig, paper_block, rollout
 
-C_MAX, C_UNI, C_MIN = 0.0345, 0.0187, 0.0067  # the paper's, as it rounds them [m]
-OPEN_LOOP = ((C_MAX, math.inf), (C_UNI, math.inf), (C_MIN, math.inf), (C_UNI, 0.0))
-PUSHES = 200
+OPEN_LOOP = ((C_MAX, math.inf), (C_UNIFORM, math.inf), (C_MIN, math.inf), (C_UNIFORM, 0.0))
 BETWEEN_SNAPSHOTS = 50
-PERIOD = 0.1  # of a push [s]
-
-THETA_DESIRED = math.radians(-10.0)
-GAINS = ((0.02, 2.0), (0.05, 5.0), (0.2, 10.0))
 STEPS = 400
 
 
@@ -61,7 +65,7 @@ def trajectory_figure() -> matplotlib.figure.Figure:
     figure = new_figure(TWO_COLUMNS, 3.35)
     panels = figure.subplots(1, len(OPEN_LOOP), sharex=True, sharey=True)
     for axes, (c, mu_c), letter in zip(panels, OPEN_LOOP, 'abcd', strict=True):
-        _draw_snapshots(axes, paper_block(theta=0.0, d=-0.005, c=c, mu_c=mu_c))
+        _draw_snapshots(axes, paper_block(theta=0.0, d=FIGURE_7_D, c=c, mu_c=mu_c))
         value = r'\infty' if math.isinf(mu_c) else f'{mu_c:g}'
         axes.set_title(rf'({letter})  $c = {CENTIMETRE * c:.2f}\,$cm, $\mu_c = {value}$')
         axes.set_xlabel('$x$ [cm]')
@@ -72,14 +76,18 @@ def trajectory_figure() -> matplotlib.figure.Figure:
 
 def _draw_snapshots(axes: Axes, config: RigConfig) -> None:
     """Draw block and finger every so many pushes."""
-    run = rollout(config, AHEAD, PUSHES, PERIOD)
+    run = rollout(config, AHEAD, FIGURE_7_PUSHES, CONTROL_PERIOD)
     x, y = CENTIMETRE * run.x, CENTIMETRE * run.y
     corners = CENTIMETRE * config.slider.outline.points(config.radius)
-    for k in range(0, PUSHES + 1, BETWEEN_SNAPSHOTS):
+    for k in range(0, FIGURE_7_PUSHES + 1, BETWEEN_SNAPSHOTS):
         cos, sin = math.cos(run.theta[k]), math.sin(run.theta[k])
         block = corners @ [[cos, sin], [-sin, cos]] + (x[k], y[k])
-        finger = 0.0, CENTIMETRE * config.belt_speed * PERIOD * k
-        style: dict[str, Any] = {'edgecolor': BLACK, 'linewidth': 0.7, 'zorder': 2.0 + k / PUSHES}
+        finger = 0.0, CENTIMETRE * config.belt_speed * CONTROL_PERIOD * k
+        style: dict[str, Any] = {
+            'edgecolor': BLACK,
+            'linewidth': 0.7,
+            'zorder': 2.0 + k / FIGURE_7_PUSHES,
+        }
         axes.fill(*block.T, facecolor='0.92', **style)
         axes.add_patch(Circle(finger, CENTIMETRE * config.radius, facecolor=PALE_BLUE, **style))
     axes.plot(x, y, color=RED, zorder=4.0)
@@ -109,8 +117,12 @@ def step_response_figure() -> matplotlib.figure.Figure:
     upper, lower = figure.subplots(2, 1, sharex=True)
     upper.axhline(math.degrees(THETA_DESIRED), color=GREY, linewidth=0.8)
     upper.annotate(r'$\theta_d$', (3.0, -9.6), color=GREY, va='bottom')
-    for (kp, kd), color, style in zip(GAINS, (ORANGE, BLACK, BLUE), ('--', '-', '-.'), strict=True):
-        run = rollout(paper_block(c=C_UNI), PushLaw(kp, kd, THETA_DESIRED), STEPS, PERIOD)
+    for (kp, kd), color, style in zip(
+        FIGURE_8_GAINS, (ORANGE, BLACK, BLUE), ('--', '-', '-.'), strict=True
+    ):
+        run = rollout(
+            paper_block(c=C_UNIFORM), PushLaw(kp, kd, THETA_DESIRED), STEPS, CONTROL_PERIOD
+        )
         line = {'color': color, 'linestyle': style, 'label': f'$k_p = {kp:g}$, $k_d = {kd:g}$'}
         step = np.arange(len(run.theta))
         upper.plot(step, np.degrees(run.theta), **line)
