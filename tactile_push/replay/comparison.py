@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from tactile_push.control import Tick
+from tactile_push.pipeline import Felt
 
 
 class ReplayedTick(NamedTuple):
@@ -116,6 +117,19 @@ class Comparison:
     without_effect: list[str] = field(default_factory=list)
     sensed: list[SensedTick] | None = None
     _last_kept: int = field(default=0, repr=False)  # its stamp [ns]
+
+    def count(self, felt: Felt) -> None:
+        """Count a reading.
+
+        Parameters
+        ----------
+        felt : Felt
+            What came of it.
+        """
+        self.readings += 1
+        self.contacts += felt.contact is not None
+        if felt.refusal:
+            self.refused[felt.refusal] = self.refused.get(felt.refusal, 0) + 1
 
     def keep(self, stamp: int) -> None:
         """Count a control period that is kept as recorded.

@@ -1,30 +1,38 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the control periods in a bag tell about the objects that were pushed."""
+"""Runs active sensing over the control periods in a bag."""
 
 import math
 import os
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from tactile_push.bags import BagError, BagReader
 from tactile_push.control import tick_of
-from tactile_push.paper import BLOCK_CORNERS, object_with
-from tactile_push.pipeline.stamps import epoch_of
-from tactile_push.replay.new_bag import copy, new_bag
-from tactile_push.replay.object_history import ObjectFigures, ObjectHistory
-from tactile_push.replay.parameters import (
-    check_config,
-    read_config,
-    recorded_parameters,
-    sensing_parameters,
+from tactile_push.interface import (
+    ACTIVE_SENSING,
+    CONTROLLER_STATE,
+    OBJECT_POSE,
+    SENSING_STATE,
+    TOPICS,
+    TRUE_STATE,
+    fingers,
 )
-from tactile_push.replay.sensing import POSE, STATE, TOPICS, Sensing
+from tactile_push.paper import object_with
+from tactile_push.parameters import ActiveSensingParameters
+from tactile_push.parameters.estimator import make_sensing
+from tactile_push.pipeline import Sensing, by_name
+from tactile_push.pipeline.stamps import epoch_of, seconds_since
+from tactile_push.replay.messages import stamp_of
+from tactile_push.replay.new_bag import new_bag
+from tactile_push.replay.object_history import ObjectFigures, ObjectHistory
+from tactile_push.replay.parameters import FingerParameters, ParameterFile
 
-TICKS, TRUTH = 'push_controller/state', 'ground_truth/state'
-JOINT_STATE = 'sensor_msgs/msg/JointState'
+INPUTS = (CONTROLLER_STATE, TRUE_STATE)
+MADE = (SENSING_STATE, OBJECT_POSE)
 
 
 def estimate(
@@ -37,7 +45,7 @@ def estimate(
 ) -> list[ObjectFigures]:
     """Run active sensing over all recorded control periods, whatever was recorded of it.
 
-    Readings without control periods do not do: nobody knows how the finger moved.
+    A bag with readings but without control periods is refused: nobody knows how the finger moved.
 
     Parameters
     ----------
@@ -50,7 +58,7 @@ def estimate(
     out : path, optional
         Folder of the bag to write, not there yet.
     progress : callable, optional
-        Told how many messages have been read.
+        Called with the number of messages read so far.
 
     Returns
     -------
@@ -67,71 +75,65 @@ def estimate(
         If a file cannot be read, or the new bag cannot be written.
     """
     namespaces = _namespaces(bag)
-    check_config(config, namespaces, ['active_sensing'])
-    epoch = epoch_of(bag.start_time // 10**9)
-    sensors: dict[str, Sensing] = {}
+    file = ParameterFile(config)
+    file.check(namespaces, [ACTIVE_SENSING])
+    seconds = partial(seconds_since, epoch_of(bag.start_time // 10**9))
+    steps: dict[str, Sensing] = {}
     histories: dict[str, ObjectHistory] = {}
     for namespace in namespaces:
-        given = recorded_parameters(bag.notes, namespace)
-        wanted = read_config(config, namespace)
-        wanted['active_sensing'].update(sensing or {})
-        values = sensing_parameters(given, wanted)
-        sensors[namespace] = Sensing(values, epoch)
-        known = {*given['active_sensing'], *wanted['active_sensing']}
+        wanted = {ACTIVE_SENSING: sensing or {}}
+        parameters = FingerParameters.of(bag.notes, namespace, file, wanted)
+        values = ActiveSensingParameters.of(parameters.sensing)
+        steps[namespace] = Sensing(make_sensing(values), seconds)
+        known = {*parameters.recorded[ACTIVE_SENSING], *parameters.wanted[ACTIVE_SENSING]}
         told = bool(known & {'vertices', 'disk_radius'})
-        numbers = values.get('vertices', [x for corner in BLOCK_CORNERS for x in corner])
-        corners = zip(numbers[::2], numbers[1::2], strict=True)
-        pushed = object_with(corners, values.get('disk_radius', 0.0))
-        histories[namespace] = ObjectHistory(namespace.strip('/'), bag.start_time, told, pushed)
-    inputs = {f'{n}{topic}': (n, topic) for n in namespaces for topic in (TICKS, TRUTH)}
-    made = {f'{n}{topic}': kind for n in namespaces for topic, kind in TOPICS.items()}
+        corners = zip(values.vertices[::2], values.vertices[1::2], strict=True)
+        pushed = object_with(corners, values.disk_radius)
+        finger = namespace.removeprefix('/')
+        histories[namespace] = ObjectHistory(finger, bag.start_time, told, pushed)
+    inputs = {f'{n}/{topic}': (n, topic) for n in namespaces for topic in INPUTS}
+    made = {f'{n}/{topic}': TOPICS[topic].type_name for n in namespaces for topic in MADE}
     with ExitStack() as stack:
-        writer = None if out is None else stack.enter_context(new_bag(out, bag, made))
-        for count, message in enumerate(bag.messages(inputs if writer is None else None)):
+        new = None if out is None else stack.enter_context(new_bag(out, bag, made))
+        for count, message in enumerate(bag.messages(inputs if new is None else None)):
             if count % 1000 == 0:
                 progress(count)
-            if writer is not None and message.topic not in made:
-                copy(writer, message)
+            if new is not None and message.topic not in made:
+                new.copy(message)
             if message.topic not in inputs:
                 continue
             namespace, topic = inputs[message.topic]
             decoded = bag.decode(message)
-            stamp = decoded.header.stamp.sec, decoded.header.stamp.nanosec
-            values = dict(zip(decoded.name, decoded.position, strict=False))
-            if topic == TRUTH:
-                histories[namespace].truth(stamp, values)
+            values_by_name = by_name(decoded.name, decoded.position)
+            if topic == TRUE_STATE:
+                histories[namespace].truth(stamp_of(decoded), values_by_name)
                 continue
             try:
-                tick = tick_of(values)
+                tick = tick_of(values_by_name)
             except ValueError as error:
                 raise BagError(f'{bag.path}: {message.topic}: {error}') from None
-            sensed = sensors[namespace].tick(stamp, tick)
-            desired = values.get('theta_desired', math.nan)
-            histories[namespace].add(stamp, tick.state, desired, sensed)
-            for topic, data in ((STATE, sensed.state), (POSE, sensed.pose)):
-                if writer is not None and data is not None:
-                    at = message.log_time
-                    writer.write(f'{namespace}{topic}', data, at, at)
+            sensed = steps[namespace].tick(stamp_of(decoded), tick)
+            desired = values_by_name.get('theta_desired', math.nan)
+            histories[namespace].add(tick.state, desired, sensed)
+            if new is not None:
+                for topic, fields in sensed.outputs():
+                    new.write(f'{namespace}/{topic}', fields, message.log_time)
     return [history.figures() for history in histories.values()]
 
 
 def _namespaces(bag: BagReader) -> list[str]:
-    """Find the fingers of which the bag has control periods."""
-    found = [
-        name.removesuffix(TICKS)
-        for name in bag.topics
-        if name.endswith(f'/{TICKS}') and bag.counts[name]
-    ]
+    """Return the namespaces of the fingers that the bag has control periods of."""
+    found = fingers((name for name in bag.topics if bag.counts[name]), [CONTROLLER_STATE])
     if not found:
         raise BagError(
-            f'{bag.path}: no control periods, expected a topic {TICKS}: nobody knows how the '
-            'finger moved'
+            f'{bag.path}: no control periods, expected a topic {CONTROLLER_STATE}: nobody knows '
+            'how the finger moved'
         )
     for namespace in found:
-        for topic in (TICKS, TRUTH):
-            known = bag.topics.get(f'{namespace}{topic}')
-            if known is not None and known.type_name != JOINT_STATE:
+        for topic in INPUTS:
+            known, expected = bag.topics.get(f'{namespace}/{topic}'), TOPICS[topic].type_name
+            if known is not None and known.type_name != expected:
                 raise BagError(
-                    f'{bag.path}: {known.name}: expected {JOINT_STATE}, got {known.type_name}'
+                    f'{bag.path}: {known.name}: expected {expected}, got {known.type_name}'
                 )
-    return found
+    return list(found)

@@ -2,43 +2,48 @@
 # SPDX-License-Identifier: Apache-2.0
 """One finger's way from reading to command and estimate, over a bag's messages."""
 
-import math
-from collections.abc import Callable, Iterable, Mapping, Set
+from collections.abc import Callable, Collection, Iterable, Mapping
+from functools import partial
 from typing import Any
 
-from tactile_push.bags import Message
-from tactile_push.control import Tick, tick_values
-from tactile_push.parameters import ContactGeometryParameters, PushControllerParameters
-from tactile_push.pipeline.cdr import encode_joint_state, encode_pose, encode_twist
-from tactile_push.pipeline.orientation import quaternion_of_yaw, yaw_of_quaternion
-from tactile_push.replay.comparison import Comparison
-from tactile_push.replay.controller import Controller, Replayed
-from tactile_push.replay.geometry import Felt, Geometry, Stamp
-from tactile_push.replay.own_ticks import OwnTicks
-from tactile_push.replay.sensing import POSE, TOPICS, Output, Sensing, SensingAgain
-from tactile_push.tactile import reading_values
-
-INPUTS = {
-    'tactile': 'sensor_msgs/msg/JointState',
-    'joint_states': 'sensor_msgs/msg/JointState',
-    'contact': 'geometry_msgs/msg/PoseStamped',
-    'contact_geometry/state': 'sensor_msgs/msg/JointState',
-    'push_controller/state': 'sensor_msgs/msg/JointState',
-    'finger/cmd_vel': 'geometry_msgs/msg/TwistStamped',
-    **TOPICS,
-}
-OUTPUTS = (
-    'contact',
-    'contact_geometry/state',
-    'push_controller/state',
-    'finger/cmd_vel',
-    *TOPICS,
+from tactile_push.bags import BagReader, Message
+from tactile_push.control import Tick
+from tactile_push.interface import (
+    COMMAND,
+    CONTACT,
+    CONTACT_GEOMETRY,
+    CONTROLLER_STATE,
+    GEOMETRY_STATE,
+    JOINT_STATES,
+    OBJECT_POSE,
+    PUSH_CONTROLLER,
+    SENSING_STATE,
+    TACTILE,
 )
-DISK, BASE = 'finger_disk', 'finger_base'  # frames of contacts and commands
+from tactile_push.parameters import (
+    ActiveSensingParameters,
+    ContactGeometryParameters,
+    PushControllerParameters,
+)
+from tactile_push.parameters.estimator import make_sensing
+from tactile_push.pipeline import Felt, Output, Sensing, Stamp, edge_angle
+from tactile_push.pipeline.orientation import quaternion_of_yaw
+from tactile_push.pipeline.stamps import epoch_of, seconds_since
+from tactile_push.replay.comparison import Comparison
+from tactile_push.replay.controller import ReplayedController
+from tactile_push.replay.geometry import ReplayedGeometry
+from tactile_push.replay.messages import Replayed, Written, nanoseconds, stamp_of
+from tactile_push.replay.new_bag import NewBag
+from tactile_push.replay.own_ticks import OwnTicks
+from tactile_push.replay.parameters import FingerParameters
+from tactile_push.replay.sensing import ReplayedSensing
+
 PATIENCE = 2 * 10**9  # after which a recorded command belongs to no tick [ns]
 REMEMBERED = 1000  # control periods whose recorded command has not come
 
-Write = Callable[[str, bytes, int], None]
+FOLLOWS_CHANGES = (ReplayedGeometry, ReplayedController)
+
+Handler = Callable[[Message], None]
 
 
 class Finger:
@@ -47,178 +52,177 @@ class Finger:
     Parameters
     ----------
     namespace : str
-        Its namespace with a slash at either end, '/' for the root.
-    recorded : set of str
+        Its namespace, '' or such as '/left'.
+    topics : collection of str
         Its topics in the bag, without the namespace.
-    given : mapping of str to mapping
-        Parameters of its nodes that are not the default, by node. Without `active_sensing` the
-        object is not sensed.
-    overridden : set of str
-        Parameters of `push_controller` that do not follow the bag.
-    begin : tuple of int
-        First log time of the bag [ns], and the epoch from which times count [s].
-    decode : callable
-        Gives a message's content.
+    parameters : FingerParameters
+        Those of its nodes.
+    bag : BagReader
+        The bag.
 
     Attributes
     ----------
+    handlers : dict of str to callable
+        What takes the messages of each topic that the replay needs, without the namespace.
     comparison : Comparison
         How the commands compare.
-    write : callable
-        Takes a topic without the namespace, a message in CDR and its log time [ns]; does nothing
-        unless it is set.
+    new_bag : NewBag or None
+        Gets the messages, if it is set.
     """
 
     def __init__(
         self,
         namespace: str,
-        recorded: Set[str],
-        given: Mapping[str, Mapping[str, Any]],
-        overridden: set[str],
-        begin: tuple[int, int],
-        decode: Callable[[Message], Any],
+        topics: Collection[str],
+        parameters: FingerParameters,
+        bag: BagReader,
     ) -> None:
-        self._start, epoch = begin
-        self._decode = decode
-        self.write: Write = _nowhere
-        self._geometry = None
-        if recorded & {'tactile', 'contact_geometry/state'}:
-            as_recorded = 'contact_geometry/state' in recorded
-            self._geometry = Geometry(given['contact_geometry'], epoch, as_recorded)
-        self._controller: Controller | OwnTicks
-        if 'push_controller/state' in recorded:
-            self._controller = Controller(given['push_controller'], overridden, epoch)
-        else:
-            self._controller = OwnTicks(given['push_controller'], epoch)
-        self._sensing: SensingAgain | None = None
-        self.comparison = Comparison(namespace.strip('/'))
-        if 'active_sensing' in given:
-            alike = recorded if 'push_controller/state' in recorded else set()
-            sensing = Sensing(given['active_sensing'], epoch)
-            self._sensing = SensingAgain(sensing, alike, self._start)
-            self.comparison.sensed = self._sensing.sensed
+        self._namespace = namespace
+        self._parameters = parameters
+        self._decode = bag.decode
+        self._start, epoch = bag.start_time, epoch_of(bag.start_time // 10**9)
+        self.comparison = Comparison(namespace.removeprefix('/'))
+        self.comparison.without_effect = parameters.without_effect(topics)
+        self.new_bag: NewBag | None = None
+        self.handlers: dict[str, Handler] = {}
         self._first: Stamp | None = None  # reading that is replayed
-        self._as_recorded: list[tuple[str, Stamp, Message]] = []  # of before, or to be replaced
+        self._as_recorded: list[tuple[Stamp, Message]] = []  # before it, or to be replaced
         self._commands: dict[Stamp, Message] = {}
         self._states: dict[Stamp, Message] = {}
         # Whether a control period has made its command again; a recorded one may come after it.
         self._made: dict[Stamp, bool] = {}
 
-    def take(self, topic: str, message: Message) -> None:
-        """Take a message of the bag.
+        self._controller = self._replay_controller(topics, epoch)
+        self._geometry = self._replay_geometry(topics, epoch)
+        self._sensing = self._replay_sensing(topics, epoch)
 
-        Parameters
-        ----------
-        topic : str
-            Its topic, without the namespace.
-        message : Message
-            The message as it lies in the bag.
-        """
-        at = message.log_time
-        geometry, controller = self._geometry, self._controller
-        if topic == 'tactile' and geometry is not None and not geometry.as_recorded:
-            self._feel(geometry.tactile(self._decode(message)), at)
-        elif topic == 'contact_geometry/state' and geometry is not None:
-            decoded = self._decode(message)
-            self._keep(topic, message, decoded)
-            felt = geometry.state(decoded)
-            if felt is not None:
-                self._feel(felt, at)
-        elif topic == 'contact' and geometry is None:
-            self._take_contact(message, self._decode(message))
-        elif topic == 'contact' and self._first is None:
-            self._keep(topic, message, self._decode(message))
-        elif topic == 'joint_states':
-            self._take_joint_states(message)
-        elif topic == 'push_controller/state' and isinstance(controller, Controller):
-            decoded = self._decode(message)
-            self._states[_stamp(decoded)] = message
-            self._conclude(controller.state(decoded, at))
-        elif topic == 'finger/cmd_vel' and isinstance(controller, Controller):
-            self._take_command(message)
-        elif topic in TOPICS:
-            self._take_sensed(topic, message)
+    def _replay_controller(
+        self, topics: Collection[str], epoch: int
+    ) -> ReplayedController | OwnTicks:
+        values = PushControllerParameters.of(self._parameters.used[PUSH_CONTROLLER])
+        if CONTROLLER_STATE not in topics:
+            return OwnTicks(values, epoch)
+        controller = ReplayedController(values, self._parameters.wanted[PUSH_CONTROLLER], epoch)
+        self.handlers[CONTROLLER_STATE] = partial(self._take_tick, controller)
+        self.handlers[COMMAND] = self._take_command
+        return controller
+
+    def _replay_geometry(self, topics: Collection[str], epoch: int) -> ReplayedGeometry | None:
+        if not {GEOMETRY_STATE, TACTILE} & set(topics):
+            self.handlers[CONTACT] = self._take_contact
+            return None
+        values = ContactGeometryParameters.of(self._parameters.used[CONTACT_GEOMETRY])
+        geometry = ReplayedGeometry(values, epoch)
+        joints: list[Callable[..., object]] = []
+        if GEOMETRY_STATE in topics:
+            self.handlers[GEOMETRY_STATE] = partial(self._take_recorded_reading, geometry)
+        else:
+            self.handlers[TACTILE] = partial(self._take_reading, geometry)
+            joints.append(geometry.step.joint_states)
+        if isinstance(self._controller, OwnTicks):
+            joints.append(self._controller.step.joint_states)
+        if joints:
+            self.handlers[JOINT_STATES] = partial(self._take_joint_states, joints)
+        self.handlers[CONTACT] = self._keep
+        return geometry
+
+    def _replay_sensing(self, topics: Collection[str], epoch: int) -> ReplayedSensing | None:
+        if not self._parameters.senses:
+            return None
+        values = ActiveSensingParameters.of(self._parameters.sensing)
+        step = Sensing(make_sensing(values), partial(seconds_since, epoch))
+        recorded = topics if CONTROLLER_STATE in topics else ()
+        sensing = ReplayedSensing(step, recorded, self._start)
+        self.comparison.sensed = sensing.sensed
+        self.handlers[SENSING_STATE] = partial(self._take_sensed, sensing.state)
+        self.handlers[OBJECT_POSE] = partial(self._take_sensed, sensing.pose)
+        return sensing
 
     def change(self, node: str, values: Mapping[str, Any]) -> None:
-        """Take parameters that changed.
+        """Take values of parameters that changed, unless somebody wants them otherwise.
 
         Parameters
         ----------
         node : str
-            The node, without the namespace.
+            Full name of the node.
         values : mapping of str to object
             Its new values by name.
         """
-        if node == 'contact_geometry' and self._geometry is not None:
-            known = {parameter.name for parameter in ContactGeometryParameters.declared()}
-            self._geometry.change({k: v for k, v in values.items() if k in known})
-        elif node == 'push_controller' and isinstance(self._controller, Controller):
-            known = {parameter.name for parameter in PushControllerParameters.declared()}
-            self._controller.change({k: v for k, v in values.items() if k in known})
+        for own, taker, kind in (
+            (CONTACT_GEOMETRY, self._geometry, ContactGeometryParameters),
+            (PUSH_CONTROLLER, self._controller, PushControllerParameters),
+        ):
+            if node == f'{self._namespace}/{own}' and isinstance(taker, FOLLOWS_CHANGES):
+                known = {parameter.name for parameter in kind.declared()}
+                wanted = self._parameters.wanted[own]
+                taker.change({k: v for k, v in values.items() if k in known and k not in wanted})
 
     def finish(self) -> None:
         """Make the ticks that still wait, and write what is left as it was recorded."""
-        if isinstance(self._controller, Controller):
-            self._conclude(self._controller.go_on(math.inf))
-        self._keep_commands(math.inf)
+        self._conclude(self._controller.finish())
+        self._keep_commands(None)
         if self._sensing is not None:
             self._write(self._sensing.finish())
         if self._first is None:
-            self._write_as_recorded(lambda stamp: True)
+            self._write(message for _, message in self._as_recorded)
+
+    def _take_reading(self, geometry: ReplayedGeometry, message: Message) -> None:
+        self._feel(geometry.tactile(self._decode(message)), message.log_time)
+
+    def _take_recorded_reading(self, geometry: ReplayedGeometry, message: Message) -> None:
+        self._keep(message)
+        felt = geometry.state(self._decode(message))
+        if felt is not None:
+            self._feel(felt, message.log_time)
+
+    def _take_joint_states(self, takers: Iterable[Callable[..., object]], message: Message) -> None:
+        decoded = self._decode(message)
+        for take in takers:
+            take(stamp_of(decoded), decoded.name, decoded.position)
+
+    def _take_contact(self, message: Message) -> None:
+        """Take a recorded contact as it is: there are no readings."""
+        decoded = self._decode(message)
+        turn = decoded.pose.orientation
+        theta = edge_angle(decoded.header.frame_id, turn.x, turn.y, turn.z, turn.w)
+        self._write([message])
+        self.comparison.contacts += 1
+        self._conclude(self._controller.feel(theta, stamp_of(decoded), message.log_time))
+
+    def _take_tick(self, controller: ReplayedController, message: Message) -> None:
+        decoded = self._decode(message)
+        self._states[stamp_of(decoded)] = message
+        self._conclude(controller.state(decoded, message.log_time))
 
     def _take_command(self, message: Message) -> None:
-        stamp = _stamp(self._decode(message))
+        stamp = stamp_of(self._decode(message))
         made = self._made.pop(stamp, None)
         if made is None:
             self._commands[stamp] = message
         elif not made:
-            self.write('finger/cmd_vel', message.data, message.log_time)
+            self._write([message])
         self._keep_commands(message.log_time - PATIENCE)
 
-    def _take_joint_states(self, message: Message) -> None:
-        own = isinstance(self._controller, OwnTicks)
-        if self._geometry is not None and (own or not self._geometry.as_recorded):
-            decoded = self._decode(message)
-            self._geometry.joint_states(decoded)
-            if isinstance(self._controller, OwnTicks):
-                self._controller.joint_states(decoded)
-
-    def _take_contact(self, message: Message, decoded: Any) -> None:
-        """Take a recorded contact for what it is: there are no readings."""
-        self.write('contact', message.data, message.log_time)
-        rotation = decoded.pose.orientation
-        theta = yaw_of_quaternion(rotation.x, rotation.y, rotation.z, rotation.w)
-        self.comparison.contacts += 1
-        self._give(theta, _stamp(decoded), message.log_time)
+    def _take_sensed(
+        self, take: Callable[[Message, Any], Iterable[Written]], message: Message
+    ) -> None:
+        self._write(take(message, self._decode(message)))
 
     def _feel(self, felt: Felt, log_time: int) -> None:
-        self._begin_with(felt.stamp)
-        self._tell(felt, log_time)
+        """Pass on what came of a reading."""
+        if self._first is None:
+            self._first = felt.stamp
+            self._write(message for stamp, message in self._as_recorded if stamp < felt.stamp)
+            self._as_recorded.clear()
+        self.comparison.count(felt)
+        self._write_outputs(felt.outputs(), log_time)
         theta = None
-        if felt.contact is not None:
-            turn = (0.0, 0.0, *quaternion_of_yaw(felt.contact.theta))
-            place = (felt.contact.x, felt.contact.y, 0.0)
-            self.write('contact', encode_pose(felt.stamp, DISK, place, turn), log_time)
-            theta = yaw_of_quaternion(*turn)  # which is what the controller gets
-        self._give(theta, felt.stamp, log_time)
-
-    def _tell(self, felt: Felt, log_time: int) -> None:
-        comparison = self.comparison
-        comparison.readings += 1
-        comparison.contacts += felt.contact is not None
-        if felt.refusal:
-            comparison.refused[felt.refusal] = comparison.refused.get(felt.refusal, 0) + 1
-        theta = math.nan if felt.contact is None else felt.contact.theta
-        values = reading_values(felt.reading, felt.joint_angle, theta, felt.refusal)
-        self.write('contact_geometry/state', encode_joint_state(felt.stamp, values), log_time)
-
-    def _give(self, theta: float | None, stamp: Stamp, log_time: int) -> None:
-        if isinstance(self._controller, OwnTicks):
-            self._conclude(self._controller.reading(theta, stamp, log_time))
-        elif theta is not None:
-            self._conclude(self._controller.contact(theta, stamp, log_time))
+        if felt.contact is not None:  # the controller gets it as a message
+            theta = edge_angle('', 0.0, 0.0, *quaternion_of_yaw(felt.contact.theta))
+        self._conclude(self._controller.feel(theta, felt.stamp, log_time))
 
     def _conclude(self, ticks: Iterable[Replayed]) -> None:
+        """Pass on the ticks that were made, and keep recorded ones that cannot be."""
         for stamp, log_time, tick, recorded in ticks:
             state, command = self._states.pop(stamp, None), self._commands.pop(stamp, None)
             if command is None:
@@ -226,68 +230,42 @@ class Finger:
                 if len(self._made) > REMEMBERED:
                     del self._made[next(iter(self._made))]
             if tick is None:
-                self.comparison.keep(stamp[0] * 10**9 + stamp[1])
-                for topic, message in (
-                    ('finger/cmd_vel', command),
-                    ('push_controller/state', state),
-                ):
-                    if message is not None:
-                        self.write(topic, message.data, message.log_time)
+                self.comparison.keep(nanoseconds(stamp))
+                self._write(message for message in (command, state) if message is not None)
                 self._sense(stamp, log_time, recorded)
-                continue
-            if tick.v_x is not None:
-                self.write('finger/cmd_vel', encode_twist(stamp, BASE, tick.v_x), log_time)
-            values = tick_values(tick, self._controller.law)
-            self.write('push_controller/state', encode_joint_state(stamp, values), log_time)
-            since = (stamp[0] * 10**9 + stamp[1] - self._start) * 1e-9
-            self.comparison.add(since, tick, recorded)
-            self._sense(stamp, log_time, tick)
+            else:
+                self._write_outputs(self._controller.step.outputs(stamp, tick), log_time)
+                since = (nanoseconds(stamp) - self._start) * 1e-9
+                self.comparison.add(since, tick, recorded)
+                self._sense(stamp, log_time, tick)
 
     def _sense(self, stamp: Stamp, log_time: int, tick: Tick | None) -> None:
         if self._sensing is not None and tick is not None:
             self._write(self._sensing.tick(stamp, log_time, tick))
 
-    def _take_sensed(self, topic: str, message: Message) -> None:
-        """Take what was recorded of the object, and keep it if it is not made again."""
-        if self._sensing is None:
-            self.write(topic, message.data, message.log_time)
-        elif topic == POSE:
-            self._write(self._sensing.pose(message, self._decode(message)))
-        else:
-            self._write(self._sensing.state(message, self._decode(message)))
-
-    def _write(self, outputs: Iterable[Output]) -> None:
-        for output in outputs:
-            self.write(*output)
-
-    def _keep(self, topic: str, message: Message, decoded: Any) -> None:
+    def _keep(self, message: Message) -> None:
         """Keep what was recorded before the first reading that is replayed."""
         if self._first is None:
-            self._as_recorded.append((topic, _stamp(decoded), message))
+            self._as_recorded.append((stamp_of(self._decode(message)), message))
 
-    def _begin_with(self, stamp: Stamp) -> None:
-        if self._first is None:
-            self._first = stamp
-            self._write_as_recorded(lambda other: other < stamp)
-
-    def _write_as_recorded(self, wanted: Callable[[Stamp], bool]) -> None:
-        for topic, stamp, message in self._as_recorded:
-            if wanted(stamp):
-                self.write(topic, message.data, message.log_time)
-        self._as_recorded.clear()
-
-    def _keep_commands(self, until: float) -> None:
-        """Write commands that belong to no tick: somebody else's."""
+    def _keep_commands(self, until: int | None) -> None:
+        """Write commands of another node, which belong to no tick, up to a log time [ns]."""
         for stamp, message in list(self._commands.items()):
-            if message.log_time >= until:
+            if until is not None and message.log_time >= until:
                 break
-            self.write('finger/cmd_vel', message.data, message.log_time)
+            self._write([message])
             del self._commands[stamp]
 
+    def _write_outputs(self, outputs: Iterable[Output], log_time: int) -> None:
+        if self.new_bag is not None:
+            self._write((output, log_time) for output in outputs)
 
-def _nowhere(topic: str, data: bytes, log_time: int) -> None:
-    """Write nothing."""
-
-
-def _stamp(message: Any) -> Stamp:
-    return message.header.stamp.sec, message.header.stamp.nanosec
+    def _write(self, messages: Iterable[Written]) -> None:
+        for message in messages:
+            if self.new_bag is None:
+                continue  # what makes the messages goes on all the same
+            if isinstance(message, Message):
+                self.new_bag.copy(message)
+            else:
+                (topic, fields), log_time = message
+                self.new_bag.write(f'{self._namespace}/{topic}', fields, log_time)

@@ -1,152 +1,81 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What `contact_geometry` does, over a bag's messages."""
+"""What `contact_geometry` did with a bag's readings."""
 
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any, NamedTuple
+from functools import partial
+from typing import Any
 
+from tactile_push.interface import GEOMETRY_STATE
 from tactile_push.parameters.contact_geometry import (
     ContactGeometryParameters,
     make_finder,
     take_values,
 )
+from tactile_push.pipeline import Felt, Geometry, by_name
+from tactile_push.pipeline.geometry import UNREADABLE
 from tactile_push.pipeline.stamps import seconds_since
-from tactile_push.tactile import NO_CONTACT, REFUSALS, Contact, Reading, ReadingRejectedError
-
-UNREADABLE = 'no azimuth and elevation'
-
-Stamp = tuple[int, int]  # [s, ns]
+from tactile_push.replay.messages import stamp_of
+from tactile_push.tactile import REFUSALS
 
 
-class Felt(NamedTuple):
-    """What came out of one reading."""
-
-    stamp: Stamp
-    reading: Reading
-    joint_angle: float
-    contact: Contact | None
-    refusal: str
-
-
-class Geometry:
+class ReplayedGeometry:
     """Finds the contacts of a bag's readings as the node did.
 
     What the node had heard of the joints when a reading came depends on how fast the messages
-    travelled, which no bag tells. Where `contact_geometry/state` was recorded, it has the readings
-    that the node took, in their order, and how the joints stood for each. Without it readings and
-    joint states are taken in the bag's order.
+    travelled, which a bag does not tell. `contact_geometry/state` has the readings in the order in
+    which the node took them, and for each how far the joints had turned. Without that topic,
+    readings and joint states are taken in the bag's order.
 
     Parameters
     ----------
-    given : mapping of str to object
-        Values of the node's parameters that are not the default.
+    values : ContactGeometryParameters
+        The node's parameters.
     epoch : int
-        From when on times count [s].
-    as_recorded : bool
-        Whether `contact_geometry/state` was recorded.
+        Time from which times count [s].
 
     Attributes
     ----------
-    as_recorded : bool
-        As given.
-
-    Raises
-    ------
-    ValueError
-        If a value is refused.
+    step : Geometry
+        What the node runs.
     """
 
-    def __init__(self, given: Mapping[str, Any], epoch: int, as_recorded: bool) -> None:
-        self._values = ContactGeometryParameters.of(given)
-        self._finder = make_finder(self._values)
-        self._epoch = epoch
-        self.as_recorded = as_recorded
+    def __init__(self, values: ContactGeometryParameters, epoch: int) -> None:
+        self._values = values
+        self.step = Geometry(make_finder(values), values.joint_names, partial(seconds_since, epoch))
         self._started = False
 
-    def change(self, given: Mapping[str, Any]) -> None:
-        """Take values of parameters that changed while the node ran.
-
-        Parameters
-        ----------
-        given : mapping of str to object
-            The values by name.
-        """
-        self._values = replace(self._values, **given)
-        take_values(self._finder, self._values)
-
-    def joint_states(self, message: Any) -> None:
-        """Take a message of `joint_states`.
-
-        Parameters
-        ----------
-        message : sensor_msgs/JointState
-            The message.
-        """
-        angles = dict(zip(message.name, message.position, strict=False))
-        try:
-            joints = [angles[name] for name in self._values.joint_names]
-        except KeyError:
-            return
-        stamp = message.header.stamp
-        self._finder.joints(seconds_since(self._epoch, stamp.sec, stamp.nanosec), joints)
+    def change(self, values: Mapping[str, Any]) -> None:
+        """Take values of parameters that changed while the node ran."""
+        self._values = replace(self._values, **values)
+        take_values(self.step.finder, self._values)
 
     def tactile(self, message: Any) -> Felt:
-        """Take a message of `tactile`.
-
-        Parameters
-        ----------
-        message : sensor_msgs/JointState
-            The message.
-
-        Returns
-        -------
-        Felt
-            What came out of it.
-        """
-        values = dict(zip(message.name, message.position, strict=False))
-        return self._feel(message, values, None, '')
+        """Take a message of `tactile` and return what comes of the reading."""
+        return self.step.tactile(stamp_of(message), message.name, message.position)
 
     def state(self, message: Any) -> Felt | None:
-        """Take a message of `contact_geometry/state`.
+        """Take a message of `contact_geometry/state` and return what comes of the reading.
 
-        Parameters
-        ----------
-        message : sensor_msgs/JointState
-            The message.
-
-        Returns
-        -------
-        Felt or None
-            What came out of the reading; None as long as none was accepted since the bag's
-            beginning, for nobody knows what they were refused by.
+        It is None until the node accepted a reading in the bag: before, the node may have refused
+        readings for something that happened before the recording.
         """
-        values = dict(zip(message.name, message.position, strict=False))
-        refusal = REFUSALS[int(values['refusal'])]
-        self._started = self._started or not refusal
+        values = by_name(message.name, message.position)
+        try:
+            refused = REFUSALS[int(values['refusal'])]
+        except (KeyError, IndexError, ValueError):
+            raise ValueError(
+                f'{GEOMETRY_STATE}: refusal: expected 0 to {len(REFUSALS) - 1}, '
+                f'got {values.get("refusal", "nothing")}'
+            ) from None
+        self._started = self._started or not refused
         if not self._started:
             return None
-        if refusal == UNREADABLE:
-            values = {}
-        return self._feel(message, values, values.get('joint_angle', math.nan), refusal)
-
-    def _feel(
-        self, message: Any, values: Mapping[str, float], joint_angle: float | None, refused: str
-    ) -> Felt:
-        stamp = (message.header.stamp.sec, message.header.stamp.nanosec)
-        try:
-            reading = Reading(values['azimuth'], values['elevation'])
-        except KeyError:
-            return Felt(stamp, NO_CONTACT, math.nan, None, UNREADABLE)
-        if stamp[0] < 0:
-            return Felt(stamp, NO_CONTACT, math.nan, None, 'negative stamp')
-        finder = self._finder
-        try:
-            contact = finder.contact(reading, seconds_since(self._epoch, *stamp), joint_angle)
-        except ReadingRejectedError as reason:
-            refusal = str(reason)
-            if joint_angle is not None and math.isnan(joint_angle) and refused:
-                refusal = refused  # why the node knew of no joint angle
-            return Felt(stamp, reading, finder.joint_angle, None, refusal)
-        return Felt(stamp, reading, finder.joint_angle, contact, '')
+        angle = values.get('joint_angle', math.nan)
+        names = () if refused == UNREADABLE else message.name
+        felt = self.step.tactile(stamp_of(message), names, message.position, angle)
+        if math.isnan(angle) and felt.refusal and refused:
+            return felt._replace(refusal=refused)  # why the node knew of no joint angle
+        return felt

@@ -1,33 +1,53 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""A bag like another one, in which some topics are made again."""
+"""A bag like another one, in which some topics are made anew."""
 
 import os
 import shutil
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
+from mcap_ros2._dynamic import EncoderFunction, serialize_dynamic
+
 from tactile_push.bags import BagReader, BagWriter, Message, schema_text
+from tactile_push.pipeline import Fields
+
+
+class NewBag:
+    """Copies messages of a bag and writes new ones from their fields."""
+
+    def __init__(self, writer: BagWriter, encoders: Mapping[str, EncoderFunction]) -> None:
+        self._writer = writer
+        self._encoders = encoders
+
+    def copy(self, message: Message) -> None:
+        """Write a message as it lies in the other bag."""
+        self._writer.write(message.topic, message.data, message.log_time, message.publish_time)
+
+    def write(self, topic: str, fields: Fields, log_time: int) -> None:
+        """Write a message of a topic that is made anew, at a log time [ns]."""
+        self._writer.write(topic, self._encoders[topic](fields), log_time, log_time)
 
 
 @contextmanager
 def new_bag(
-    out: str | os.PathLike[str], bag: BagReader, made_again: Mapping[str, str]
-) -> Iterator[BagWriter]:
-    """Write a bag with the topics and notes of another one; unless all goes well, none is left.
+    out: str | os.PathLike[str], bag: BagReader, made: Mapping[str, str]
+) -> Iterator[NewBag]:
+    """Write a bag with the topics and notes of another one; if anything fails, no bag is left.
 
     Parameters
     ----------
     out : path
         Folder of the bag to write, not there yet.
     bag : BagReader
-        The other one.
-    made_again : mapping of str to str
-        Types of topics that the bag shall have even if the other one does not, by full name.
+        The other bag.
+    made : mapping of str to str
+        Types of the topics that are made anew, by full name. The new bag has them even if the other
+        one does not.
 
     Yields
     ------
-    BagWriter
+    NewBag
         The bag, without messages.
 
     Raises
@@ -38,8 +58,7 @@ def new_bag(
     writer = BagWriter(out)
     try:
         with writer:
-            _begin(writer, bag, made_again)
-            yield writer
+            yield NewBag(writer, _begin(writer, bag, made))
     except BaseException as error:
         shutil.rmtree(out, ignore_errors=True)
         if isinstance(error, OSError) and error.filename is None:
@@ -47,7 +66,15 @@ def new_bag(
         raise
 
 
-def _begin(writer: BagWriter, bag: BagReader, made_again: Mapping[str, str]) -> None:
+def encoder(type_name: str, definition: str) -> EncoderFunction:
+    """Return what encodes the fields of a message type with a given definition as CDR."""
+    return serialize_dynamic(type_name, definition)[type_name]
+
+
+def _begin(
+    writer: BagWriter, bag: BagReader, made: Mapping[str, str]
+) -> dict[str, EncoderFunction]:
+    """Add topics and notes, and return the encoders of the topics that are made anew."""
     for topic in bag.topics.values():
         writer.add_topic(
             topic.name,
@@ -56,21 +83,13 @@ def _begin(writer: BagWriter, bag: BagReader, made_again: Mapping[str, str]) -> 
             type_hash=topic.type_hash,
             definition=topic.definition,
         )
-    for name, type_name in made_again.items():
-        if name not in bag.topics:
-            writer.add_topic(name, type_name, definition=schema_text(type_name))
+    encoders = {}
+    for name, type_name in made.items():
+        known = bag.topics.get(name)
+        definition = known.definition if known and known.decodes else schema_text(type_name)
+        encoders[name] = encoder(type_name, definition)
+        if known is None:
+            writer.add_topic(name, type_name, definition=definition)
     for key, text in bag.notes.items():
         writer.note(key, text)
-
-
-def copy(writer: BagWriter, message: Message) -> None:
-    """Write a message as it lies in another bag.
-
-    Parameters
-    ----------
-    writer : BagWriter
-        The bag to write.
-    message : Message
-        The message.
-    """
-    writer.write(message.topic, message.data, message.log_time, message.publish_time)
+    return encoders

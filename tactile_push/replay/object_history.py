@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""From what single control periods tell of an object to what the whole bag does."""
+"""From single control periods to what the whole bag tells of an object."""
 
 import math
 from array import array
@@ -12,9 +12,9 @@ import numpy as np
 from tactile_push.control import PUSHING
 from tactile_push.estimation import CONTRADICTIONS
 from tactile_push.paper import PaperFigures, paper_figures
+from tactile_push.pipeline import Sensed, Stamp
 from tactile_push.replay.comparison import SensedTick
-from tactile_push.replay.geometry import Stamp
-from tactile_push.replay.sensing import Sensed
+from tactile_push.replay.messages import nanoseconds
 from tactile_push.report.merit import known_step
 
 BOUNDS = ('d_lower', 'd_upper', 'd_least', 'd_most')
@@ -23,7 +23,7 @@ ROUNDING = 1e-9  # of a length [m]
 
 @dataclass(frozen=True)
 class Contradiction:
-    """A time for which the readings contradicted the object.
+    """A time during which the readings contradicted the object.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ class Contradiction:
     at : float
         When it began [s], from the start of the bag.
     duration : float
-        How long it took [s]; as far as is recorded, if it did not end.
+        How long it lasted [s]; up to the last control period if it did not end in the bag.
     ended : bool
         Whether it ended in the bag.
     """
@@ -68,26 +68,26 @@ class ObjectFigures:
     finger : str
         Namespace of the finger that pushed it, '' for the root.
     object_told : bool
-        Whether somebody said what was pushed; otherwise it was taken for the paper's block.
+        Whether somebody said what was pushed; otherwise the paper's block was assumed.
     ticks : list of SensedTick
         What each control period told of d.
     readings : int
         Readings that were taken.
     values : dict of str to float or None
-        The numbers of `active_sensing/state` of the last control period after which something was
-        known, SI units; None if nothing ever was.
+        Numbers of `active_sensing/state` of the last control period after which anything was known,
+        SI units; None if nothing ever was.
     at : float or None
         When that was [s], from the start of the bag.
     known_step : int or None
-        Step from which on d was known to 2 mm for good, see `tactile_push.report.merit.known_step`.
+        Step from which on d stayed known to 2 mm, see `tactile_push.report.merit.known_step`.
     contradictions : list of Contradiction
         When the readings contradicted the object.
     forgotten : list of Forgotten
         When everything was forgotten.
     compared : int
-        Control periods after which something was known and of which a simulator told the true d.
+        Control periods after which anything was known and for which a simulator told the true d.
     inside, inside_guaranteed : float or None
-        Share of them in which it was in the 95 % interval and in the guaranteed one.
+        Share of them with the true d in the 95 % interval and in the guaranteed one.
     paper : PaperFigures or None
         What the paper publishes of the same experiment.
     """
@@ -108,7 +108,7 @@ class ObjectFigures:
 
 
 class ObjectHistory:
-    """Takes what one control period after the other tells.
+    """Takes one control period after the other.
 
     Parameters
     ----------
@@ -129,30 +129,18 @@ class ObjectHistory:
         self._pushed = pushed
         self._theta_desired = math.nan
         self._ticks: list[SensedTick] = []
-        self._ages = array('d')  # of the reading that each one tells of [s]; NaN if unknown
-        self._steps = array('d')  # when the law acted [s]
+        self._ages = array('d')  # of the readings [s]; NaN where nothing is known
+        self._steps = array('d')  # control periods in which the law acted [s]
         self._readings = 0
         self._last: tuple[float, dict[str, float]] | None = None
         self._contradictions: list[Contradiction] = []
-        self._since: tuple[float, int] | None = None  # a contradiction that lasts
+        self._since: tuple[float, int] | None = None  # when one began, and its kind
         self._forgotten: list[Forgotten] = []
         self._true_at, self._true_d = array('d'), array('d')
 
-    def add(self, stamp: Stamp, state: str, theta_desired: float, sensed: Sensed) -> None:
-        """Take a control period.
-
-        Parameters
-        ----------
-        stamp : tuple of int
-            When it was [s, ns].
-        state : str
-            What the controller was doing: one of `STATES`.
-        theta_desired : float
-            Desired angle of the edge [rad].
-        sensed : Sensed
-            What it told.
-        """
-        at, values = self._seconds(stamp), sensed.values
+    def add(self, state: str, theta_desired: float, sensed: Sensed) -> None:
+        """Take a control period with the controller's state, one of `STATES`, and goal [rad]."""
+        at, values = self._seconds(sensed.stamp), sensed.values
         known = math.isfinite(values['d'])
         self._ticks.append(SensedTick.of(at, values))
         self._ages.append(values['age'] if known else math.nan)
@@ -171,27 +159,13 @@ class ObjectHistory:
             self._since = at, contradiction
 
     def truth(self, stamp: Stamp, values: Mapping[str, float]) -> None:
-        """Take what a simulator told.
-
-        Parameters
-        ----------
-        stamp : tuple of int
-            When it was so [s, ns].
-        values : mapping of str to float
-            Its numbers by name.
-        """
+        """Take the numbers of a simulator's `ground_truth/state` at a time."""
         if 'd' in values:
             self._true_at.append(self._seconds(stamp))
             self._true_d.append(values['d'])
 
     def figures(self) -> ObjectFigures:
-        """Evaluate what was taken; no more is taken after that.
-
-        Returns
-        -------
-        ObjectFigures
-            What it tells.
-        """
+        """Evaluate what was taken; nothing more is taken after that."""
         if self._since is not None:
             self._close_contradiction(self._ticks[-1].time, ended=False)
         at, values = self._last or (None, None)
@@ -242,4 +216,4 @@ class ObjectHistory:
         self._since = None
 
     def _seconds(self, stamp: Stamp) -> float:
-        return (stamp[0] * 10**9 + stamp[1] - self._start) * 1e-9
+        return (nanoseconds(stamp) - self._start) * 1e-9

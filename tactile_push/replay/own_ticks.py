@@ -2,19 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Control periods for a bag that does not tell when the controller ticked, or had none."""
 
-import math
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator
+from functools import partial
 
-from tactile_push.control import PushLaw
 from tactile_push.parameters.push_controller import (
     PushControllerParameters,
     make_control,
     make_finger,
 )
+from tactile_push.pipeline import Control, Stamp
 from tactile_push.pipeline.stamps import seconds_since
-from tactile_push.replay.controller import Replayed
-from tactile_push.replay.geometry import Stamp
+from tactile_push.replay.messages import Replayed, nanoseconds
 
 
 class OwnTicks:
@@ -22,81 +20,39 @@ class OwnTicks:
 
     Parameters
     ----------
-    given : mapping of str to object
-        Values of the node's parameters that are not the default.
+    values : PushControllerParameters
+        The node's parameters.
     epoch : int
-        From when on times count [s].
+        Time from which times count [s].
 
     Attributes
     ----------
-    law : PushLaw
-        The law.
-
-    Raises
-    ------
-    ValueError
-        If a value is refused.
+    step : Control
+        What the node runs.
     """
 
-    def __init__(self, given: Mapping[str, Any], epoch: int) -> None:
-        values = PushControllerParameters.of(given)
-        self._names = values.joint_names
-        self._control = make_control(values)
-        self._finger = make_finger(values)
-        self._epoch = epoch
+    def __init__(self, values: PushControllerParameters, epoch: int) -> None:
+        self._seconds = partial(seconds_since, epoch)
+        push, finger = make_control(values), make_finger(values)
+        self.step = Control(push, finger, values.joint_names, self._seconds)
         self._begin: int | None = None  # of the first period [ns]
         self._ticks = 0
 
-    @property
-    def law(self) -> PushLaw:
-        """The law."""
-        return self._control.law
-
-    def joint_states(self, message: Any) -> None:
-        """Take a message of `joint_states`.
-
-        Parameters
-        ----------
-        message : sensor_msgs/JointState
-            The message.
-        """
-        angles = dict(zip(message.name, message.position, strict=False))
-        try:
-            x = self._finger.forward(*(angles[name] for name in self._names)).x
-        except (KeyError, ValueError):
-            return
-        stamp = message.header.stamp
-        self._control.locate_finger(x, seconds_since(self._epoch, stamp.sec, stamp.nanosec))
-
-    def reading(self, theta: float | None, stamp: Stamp, log_time: int) -> Iterator[Replayed]:
-        """Take a reading.
-
-        Parameters
-        ----------
-        theta : float or None
-            Angle of the pushed edge [rad]; None if the reading tells of no contact.
-        stamp : tuple of int
-            When the sensor was read [s, ns].
-        log_time : int
-            When that was recorded [ns].
-
-        Yields
-        ------
-        Replayed
-            The ticks that were due before it.
-        """
-        at = stamp[0] * 10**9 + stamp[1]
+    def feel(self, theta: float | None, stamp: Stamp, log_time: int) -> Iterator[Replayed]:
+        """Take a reading, None without a contact, and yield the ticks that were due before it."""
+        at = nanoseconds(stamp)
         if self._begin is None:
             if theta is None:
                 return
             self._begin = at
-            self._control.activate(self._seconds(at))
-        while (due := self._begin + round(self._ticks * self._control.period * 1e9)) < at:
-            tick = self._control.tick(self._seconds(due), math.nan)
+            self.step.push.activate(self._seconds(*stamp))
+        while (due := self._begin + round(self._ticks * self.step.push.period * 1e9)) < at:
             self._ticks += 1
-            yield Replayed(divmod(due, 10**9), log_time, tick, None)
+            due_stamp = divmod(due, 10**9)
+            yield Replayed(due_stamp, log_time, self.step.tick(due_stamp), None)
         if theta is not None:
-            self._control.feel(theta, self._seconds(at))
+            self.step.contact(stamp, theta)
 
-    def _seconds(self, nanoseconds: int) -> float:
-        return seconds_since(self._epoch, *divmod(nanoseconds, 10**9))
+    def finish(self) -> Iterator[Replayed]:
+        """Yield the ticks that still wait: none, for each waits for the next reading."""
+        yield from ()

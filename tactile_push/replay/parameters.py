@@ -5,30 +5,29 @@
 import difflib
 import json
 import re
-from collections.abc import Iterable, Iterator, Mapping, Set
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import yaml
 
-from tactile_push.parameters import (
-    ActiveSensingParameters,
-    ContactGeometryParameters,
-    PushControllerParameters,
+from tactile_push.interface import (
+    ACTIVE_SENSING,
+    CONTACT_GEOMETRY,
+    PARAMETERS_NOTE,
+    PUSH_CONTROLLER,
+    node_in,
 )
+from tactile_push.parameters import PARAMETERS
 
-NODES = {
-    'contact_geometry': ContactGeometryParameters.declared(),
-    'push_controller': PushControllerParameters.declared(),
-    'active_sensing': ActiveSensingParameters.declared(),
-}
-NOTE = 'tactile_push.parameters'  # of a bag
-# What other nodes of the finger know too, where active_sensing was not recorded.
-KNOWN_TO = {'belt_speed': 'push_controller', 'finger_radius': 'contact_geometry'}
-# Of what the node's recorded state tells what came of it: when it ticked, where the finger was.
-TOLD = {
-    'contact_geometry': {'joint_names'},
-    'push_controller': {
+REPLAYED = (CONTACT_GEOMETRY, PUSH_CONTROLLER, ACTIVE_SENSING)
+NODES = {node: PARAMETERS[node].declared() for node in REPLAYED}
+# Parameters of active_sensing that other nodes of the finger have, too.
+KNOWN_TO = {'belt_speed': PUSH_CONTROLLER, 'finger_radius': CONTACT_GEOMETRY}
+# Parameters whose effect is in the node's recorded state: when it ticked, where the finger was.
+RECORDED_EFFECT = {
+    CONTACT_GEOMETRY: {'joint_names'},
+    PUSH_CONTROLLER: {
         'control_rate',
         'joint_names',
         'proximal_length',
@@ -36,172 +35,20 @@ TOLD = {
         'mount_angle',
     },
 }
-OF_EVERY_NODE = ('use_sim_time',)  # the bag's time is the only one here
-OF_OUTLINE = ('disk_radius', 'edge')  # what another outline replaces, too
+OF_EVERY_NODE = 'use_sim_time'  # without effect here: all times are the bag's
+OF_OUTLINE = ('disk_radius', 'edge')  # go with the outline, so another outline replaces them
 
-ByNode = dict[str, dict[str, Any]]  # values by node and name
-
-
-def recorded_parameters(notes: Mapping[str, str], namespace: str) -> ByNode:
-    """Give the parameters of a finger's nodes as the bag has them.
-
-    Parameters
-    ----------
-    notes : mapping of str to str
-        The bag's notes.
-    namespace : str
-        Namespace with a slash at either end.
-
-    Returns
-    -------
-    dict
-        The values by node and name; none of a node that was not there.
-    """
-    everything = json.loads(notes.get(NOTE, '{}'))
-    return {node: everything.get(f'{namespace}{node}'.lstrip('/'), {}) for node in NODES}
+ByNode = dict[str, dict[str, Any]]
+"""Values by node and name."""
 
 
-def read_config(file: Path | None, namespace: str) -> ByNode:
-    """Read the parameters of a finger's nodes from a ROS parameter file.
+class ParameterFile:
+    """A ROS parameter file, as `--params-file` takes it.
 
     Parameters
     ----------
     file : path or None
-        The file, as `--params-file` takes it, if there is one.
-    namespace : str
-        Namespace with a slash at either end.
-
-    Returns
-    -------
-    dict
-        The values by node and name.
-
-    Raises
-    ------
-    ValueError
-        If it is no such file, or has a name that looks like a slip.
-    OSError
-        If it cannot be read.
-    """
-    values: ByNode = {node: {} for node in NODES}
-    for pattern, section in _sections(file):
-        for node in NODES:
-            if _matches(pattern, f'{namespace}{node}'):
-                given = section.get('ros__parameters') if isinstance(section, dict) else None
-                if not isinstance(given, dict):
-                    raise ValueError(f'{file}: {pattern}: expected ros__parameters: with values')
-                values[node].update(given)
-    known = [parameter.name for parameters in NODES.values() for parameter in parameters]
-    known += OF_EVERY_NODE
-    for name in {name for given in values.values() for name in given} - set(known):
-        similar = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
-        if similar:
-            raise ValueError(f'{file}: {name}: unknown, did you mean {similar[0]}?')
-    return values
-
-
-def check_config(
-    file: Path | None, namespaces: Iterable[str], nodes: Iterable[str] = tuple(NODES)
-) -> None:
-    """Refuse a ROS parameter file that has no parameter of any node.
-
-    Parameters
-    ----------
-    file : path or None
-        The file, if there is one.
-    namespaces : iterable of str
-        Namespaces with a slash at either end.
-    nodes : iterable of str, optional
-        The nodes whose parameters are used, without the namespace.
-
-    Raises
-    ------
-    ValueError
-        If it has no parameter of one of the nodes.
-    OSError
-        If it cannot be read.
-    """
-    if file is None:
-        return
-    looked_for = []
-    for namespace in namespaces:
-        values = read_config(file, namespace)
-        for node in nodes:
-            if any(parameter.name in values[node] for parameter in NODES[node]):
-                return
-            looked_for.append(f'{namespace}{node}')
-    names = ' or '.join(looked_for)
-    raise ValueError(f'{file}: no parameter of a node of the bag, expected some of {names}')
-
-
-def without_effect(given: ByNode, wanted: ByNode, recorded: Set[str]) -> list[str]:
-    """Name parameters that somebody wants otherwise, but that the bag decides.
-
-    Parameters
-    ----------
-    given : dict
-        The recorded values by node and name.
-    wanted : dict
-        Those that somebody wants instead.
-    recorded : set of str
-        The finger's topics in the bag, without the namespace.
-
-    Returns
-    -------
-    list of str
-        Such as ``'push_controller: control_rate'``.
-    """
-    return [
-        f'{node}: {parameter.name}'
-        for node in TOLD
-        if f'{node}/state' in recorded
-        for parameter in NODES[node]
-        if parameter.name in TOLD[node]
-        and parameter.name in wanted[node]
-        and wanted[node][parameter.name] != given[node].get(parameter.name, parameter.default)
-    ]
-
-
-def sensing_parameters(given: ByNode, wanted: ByNode) -> dict[str, Any]:
-    """Give the parameters with which the object is sensed.
-
-    Parameters
-    ----------
-    given : dict
-        The recorded values by node and name.
-    wanted : dict
-        Those that somebody wants instead.
-
-    Returns
-    -------
-    dict
-        The values by name; those of the rig as its other nodes had them, if nobody says otherwise,
-        and none that go with another outline than the wanted one.
-    """
-    wanted_now, recorded = wanted['active_sensing'], dict(given['active_sensing'])
-    if 'vertices' in wanted_now:
-        for name in OF_OUTLINE:
-            recorded.pop(name, None)
-    of_others = {name: given[node][name] for name, node in KNOWN_TO.items() if name in given[node]}
-    return of_others | recorded | wanted_now
-
-
-def names_node(file: Path | None, namespace: str, node: str) -> bool:
-    """Tell whether a ROS parameter file has a section for a node by its name, not for all nodes.
-
-    Parameters
-    ----------
-    file : path or None
-        The file, if there is one.
-    namespace : str
-        Namespace with a slash at either end.
-    node : str
-        The node, without the namespace.
-
-    Returns
-    -------
-    bool
-        Whether it has.
+        The file; None stands for one without values.
 
     Raises
     ------
@@ -210,10 +57,168 @@ def names_node(file: Path | None, namespace: str, node: str) -> bool:
     OSError
         If it cannot be read.
     """
-    return any(
-        pattern.endswith(node) and _matches(pattern, f'{namespace}{node}')
-        for pattern, _ in _sections(file)
-    )
+
+    def __init__(self, file: Path | None) -> None:
+        self.file = file
+        self._sections = list(_sections(file))
+
+    def values(self, namespace: str) -> ByNode:
+        """Return the parameters of a finger's nodes.
+
+        Parameters
+        ----------
+        namespace : str
+            Namespace, '' or such as '/left'.
+
+        Returns
+        -------
+        dict
+            Values by node and name.
+
+        Raises
+        ------
+        ValueError
+            If a section has no parameters, or a name looks like a slip.
+        """
+        values: ByNode = {node: {} for node in NODES}
+        for pattern, section in self._sections:
+            for node in NODES:
+                if _matches(pattern, f'{namespace}/{node}'):
+                    given = section.get('ros__parameters') if isinstance(section, dict) else None
+                    if not isinstance(given, dict):
+                        raise ValueError(
+                            f'{self.file}: {pattern}: expected ros__parameters: with values'
+                        )
+                    values[node].update(given)
+        known = {parameter.name for declared in NODES.values() for parameter in declared}
+        known.add(OF_EVERY_NODE)
+        for name in {name for given in values.values() for name in given} - known:
+            similar = difflib.get_close_matches(name, sorted(known), n=1, cutoff=0.5)
+            if similar:
+                raise ValueError(f'{self.file}: {name}: unknown, did you mean {similar[0]}?')
+        return values
+
+    def check(self, namespaces: Iterable[str], nodes: Iterable[str] = REPLAYED) -> None:
+        """Raise ValueError if there is a file and none of the nodes has a parameter in it."""
+        looked_for = []
+        for namespace in namespaces if self.file is not None else ():
+            values = self.values(namespace)
+            for node in nodes:
+                if any(parameter.name in values[node] for parameter in NODES[node]):
+                    return
+                looked_for.append(f'{namespace}/{node}')
+        if looked_for:
+            names = ' or '.join(looked_for)
+            raise ValueError(
+                f'{self.file}: no parameter of a node of the bag, expected some of {names}'
+            )
+
+    def names(self, namespace: str, node: str) -> bool:
+        """Return whether a section is for the node by its name, not for all nodes."""
+        return any(
+            pattern.endswith(node) and _matches(pattern, f'{namespace}/{node}')
+            for pattern, _ in self._sections
+        )
+
+
+class FingerParameters(NamedTuple):
+    """Parameters of a finger's nodes.
+
+    Parameters
+    ----------
+    recorded : dict
+        Values in the bag by node and name.
+    wanted : dict
+        Values that somebody wants instead, which do not follow the bag.
+    senses : bool
+        Whether `active_sensing` was recorded or somebody asks for it by its name.
+    """
+
+    recorded: ByNode
+    wanted: ByNode
+    senses: bool
+
+    @classmethod
+    def of(
+        cls,
+        notes: Mapping[str, str],
+        namespace: str,
+        file: ParameterFile,
+        wanted: Mapping[str, Mapping[str, Any]],
+    ) -> 'FingerParameters':
+        """Collect the parameters of a finger's nodes.
+
+        Parameters
+        ----------
+        notes : mapping of str to str
+            Notes of the bag.
+        namespace : str
+            Namespace, '' or such as '/left'.
+        file : ParameterFile
+            Values to use instead of the recorded ones.
+        wanted : mapping of str to mapping
+            Values by node and name to use instead of both.
+
+        Returns
+        -------
+        FingerParameters
+            The parameters.
+
+        Raises
+        ------
+        ValueError
+            If the file is refused.
+        """
+        everything = json.loads(notes.get(PARAMETERS_NOTE, '{}'))
+        recorded = {node: everything.get(node_in(namespace, node), {}) for node in NODES}
+        in_file = file.values(namespace)
+        senses = bool(recorded[ACTIVE_SENSING]) or file.names(namespace, ACTIVE_SENSING)
+        return cls(recorded, {n: in_file[n] | dict(wanted.get(n, {})) for n in NODES}, senses)
+
+    @property
+    def used(self) -> ByNode:
+        """Values that are not the default."""
+        return {node: self.recorded[node] | self.wanted[node] for node in NODES}
+
+    @property
+    def sensing(self) -> dict[str, Any]:
+        """Values for `active_sensing`.
+
+        What it shares with other nodes is as they had it, if nobody says otherwise. Values that go
+        with another outline than the wanted one are left out.
+        """
+        wanted, recorded = self.wanted[ACTIVE_SENSING], dict(self.recorded[ACTIVE_SENSING])
+        if 'vertices' in wanted:
+            for name in OF_OUTLINE:
+                recorded.pop(name, None)
+        of_others = {
+            name: self.recorded[node][name]
+            for name, node in KNOWN_TO.items()
+            if name in self.recorded[node]
+        }
+        return of_others | recorded | wanted
+
+    def without_effect(self, topics: Collection[str]) -> list[str]:
+        """Return the parameters that somebody wants otherwise, but that the bag decides.
+
+        Parameters
+        ----------
+        topics : collection of str
+            Topics of the finger in the bag, without the namespace.
+
+        Returns
+        -------
+        list of str
+            Such as ``'push_controller: control_rate'``.
+        """
+        return [
+            f'{node}: {known.name}'
+            for node, decided in RECORDED_EFFECT.items()
+            if f'{node}/state' in topics
+            for known in NODES[node]
+            if known.name in decided and known.name in self.wanted[node]
+            if self.wanted[node][known.name] != self.recorded[node].get(known.name, known.default)
+        ]
 
 
 def changed_parameters(event: Any) -> tuple[str, dict[str, Any]]:
@@ -251,7 +256,7 @@ def changed_parameters(event: Any) -> tuple[str, dict[str, Any]]:
 
 
 def _sections(file: Path | None) -> Iterator[tuple[str, Any]]:
-    """Give the sections of a parameter file, each with the nodes that it is for."""
+    """Yield the sections of a parameter file, each with the nodes that it is for."""
     if file is None:
         return
     try:
@@ -263,7 +268,7 @@ def _sections(file: Path | None) -> Iterator[tuple[str, Any]]:
 
 
 def _matches(pattern: str, node: str) -> bool:
-    """Tell whether a section is for a node: `**` stands for any names, `*` for one."""
+    """Return whether a section is for a node: `**` stands for any names, `*` for one."""
     pattern = '/' + pattern.lstrip('/')
     expression = re.escape(pattern).replace(r'\*\*', '.*').replace(r'\*', '[^/]*')
     return re.fullmatch(expression.replace('/.*/', '/(.*/)?'), node) is not None

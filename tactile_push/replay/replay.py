@@ -5,29 +5,32 @@
 import os
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
-from functools import partial
 from pathlib import Path
 from typing import Any
 
-from tactile_push.bags import BagError, BagReader, BagWriter
-from tactile_push.pipeline.stamps import epoch_of
-from tactile_push.replay.comparison import Comparison
-from tactile_push.replay.finger import INPUTS, OUTPUTS, Finger
-from tactile_push.replay.new_bag import copy, new_bag
-from tactile_push.replay.parameters import (
-    ByNode,
-    changed_parameters,
-    check_config,
-    names_node,
-    read_config,
-    recorded_parameters,
-    sensing_parameters,
-    without_effect,
+from tactile_push.bags import BagError, BagReader
+from tactile_push.interface import (
+    COMMAND,
+    CONTACT,
+    CONTROLLER_STATE,
+    GEOMETRY_STATE,
+    JOINT_STATES,
+    OBJECT_POSE,
+    PARAMETER_EVENTS,
+    PUSH_CONTROLLER,
+    SENSING_STATE,
+    TACTILE,
+    TOPICS,
+    fingers,
 )
-from tactile_push.replay.sensing import TOPICS as OF_SENSING
+from tactile_push.replay.comparison import Comparison
+from tactile_push.replay.finger import Finger
+from tactile_push.replay.new_bag import new_bag
+from tactile_push.replay.parameters import FingerParameters, ParameterFile, changed_parameters
 
-EVENTS = '/parameter_events'
-READINGS = {'tactile', 'contact_geometry/state', 'contact'}  # of which a replay needs one
+READINGS = (TACTILE, GEOMETRY_STATE, CONTACT)  # of which a replay needs one
+MADE = (CONTACT, GEOMETRY_STATE, CONTROLLER_STATE, COMMAND)
+SENSED = (SENSING_STATE, OBJECT_POSE)
 
 
 def replay(
@@ -40,11 +43,11 @@ def replay(
 ) -> list[Comparison]:
     """Run a bag's readings through geometry, law and active sensing again.
 
-    The readings go through the code that the nodes run, on the recorded stamps, in the recorded
-    order, and without waiting: the result is the same every time, to the bit. Where nothing else
-    is asked for and the bag has `contact_geometry/state` and `push_controller/state`, it is what
-    the nodes gave. The object is sensed if the parameters of `active_sensing` were recorded or the
-    file has a section for it.
+    The readings go through the steps that the nodes run, on the recorded stamps, in the recorded
+    order, and without waiting: the result is the same every time, to the bit. If nothing else is
+    asked for and the bag has `contact_geometry/state` and `push_controller/state`, it is what the
+    nodes gave. The object is sensed if the parameters of `active_sensing` were recorded or the file
+    has a section for it.
 
     Parameters
     ----------
@@ -57,7 +60,7 @@ def replay(
     out : path, optional
         Folder of the bag to write, not there yet.
     progress : callable, optional
-        Told how many messages have been read.
+        Called with the number of messages read so far.
 
     Returns
     -------
@@ -73,103 +76,53 @@ def replay(
     OSError
         If a file cannot be read, or the new bag cannot be written.
     """
-    fingers: dict[str, Finger] = {}
-    found = _namespaces(bag)
-    if not found:
-        raise BagError(f'{bag.path}: nothing to replay, expected a topic tactile or contact')
-    check_config(config, found)
+    found = _fingers(bag)
+    file = ParameterFile(config)
+    file.check(found)
+    replayed = []
+    for namespace, topics in found.items():
+        wanted = {PUSH_CONTROLLER: controller or {}}
+        parameters = FingerParameters.of(bag.notes, namespace, file, wanted)
+        replayed.append((namespace, Finger(namespace, topics, parameters, bag)))
+    handlers = {
+        f'{namespace}/{topic}': handler
+        for namespace, finger in replayed
+        for topic, handler in finger.handlers.items()
+    }
+    made = {
+        f'{namespace}/{topic}': TOPICS[topic].type_name
+        for namespace, finger in replayed
+        for topic in (MADE if finger.comparison.sensed is None else MADE + SENSED)
+    }
     with ExitStack() as stack:
-        parameters = {n: _parameters(bag, n, config, controller or {}) for n in found}
-        begin = bag.start_time, epoch_of(bag.start_time // 10**9)
-        for namespace, (given, wanted) in parameters.items():
-            fingers[namespace] = Finger(
-                namespace,
-                found[namespace],
-                given,
-                set(wanted['push_controller']),
-                begin,
-                bag.decode,
-            )
-            fingers[namespace].comparison.without_effect = without_effect(
-                recorded_parameters(bag.notes, namespace), wanted, found[namespace]
-            )
-        if out is not None:
-            made = {
-                f'{namespace}{topic}': INPUTS[topic]
-                for namespace, finger in fingers.items()
-                for topic in OUTPUTS
-                if topic not in OF_SENSING or finger.comparison.sensed is not None
-            }
-            writer = stack.enter_context(new_bag(out, bag, made))
-            for namespace, finger in fingers.items():
-                finger.write = partial(_write, writer, namespace)
-        inputs = {f'{n}{topic}': (n, topic) for n in found for topic in INPUTS}
-        wanted_topics = None if out is not None else {*inputs, EVENTS}
-        for count, message in enumerate(bag.messages(wanted_topics)):
+        new = None if out is None else stack.enter_context(new_bag(out, bag, made))
+        for _, finger in replayed:
+            finger.new_bag = new
+        read = {*handlers, PARAMETER_EVENTS} if new is None else None
+        for count, message in enumerate(bag.messages(read)):
             if count % 1000 == 0:
                 progress(count)
-            if message.topic in inputs:
-                namespace, topic = inputs[message.topic]
-                fingers[namespace].take(topic, message)
-                if topic not in OUTPUTS and out is not None:
-                    copy(writer, message)
-            else:
-                if message.topic == EVENTS:
-                    _change(fingers, parameters, bag.decode(message))
-                if out is not None:
-                    copy(writer, message)
-        for finger in fingers.values():
+            if message.topic in handlers:
+                handlers[message.topic](message)
+            elif message.topic == PARAMETER_EVENTS:
+                node, values = changed_parameters(bag.decode(message))
+                for _, finger in replayed:
+                    finger.change(node, values)
+            if new is not None and message.topic not in made:
+                new.copy(message)
+        for _, finger in replayed:
             finger.finish()
-    return [finger.comparison for finger in fingers.values()]
+    return [finger.comparison for _, finger in replayed]
 
 
-def _namespaces(bag: BagReader) -> dict[str, set[str]]:
-    """Find the fingers, and the topics of each that can be replayed."""
-    found: dict[str, set[str]] = {}
-    for name in bag.topics:
-        for reading in READINGS:
-            if name.endswith(f'/{reading}') and bag.counts[name]:
-                found.setdefault(name.removesuffix(reading), set())
+def _fingers(bag: BagReader) -> dict[str, set[str]]:
+    """Return the topics of each finger that has readings."""
+    found = fingers((name for name in bag.topics if bag.counts[name]), READINGS)
+    if not found:
+        raise BagError(f'{bag.path}: nothing to replay, expected a topic tactile or contact')
     for namespace, topics in found.items():
-        for known, type_name in INPUTS.items():
-            name = f'{namespace}{known}'
-            if name in bag.topics and bag.counts[name]:
-                if bag.topics[name].type_name != type_name:
-                    raise BagError(
-                        f'{bag.path}: {name}: expected {type_name}, '
-                        f'got {bag.topics[name].type_name}'
-                    )
-                topics.add(known)
+        for topic in topics & {TACTILE, JOINT_STATES, *MADE, *SENSED}:
+            expected, got = TOPICS[topic].type_name, bag.topics[f'{namespace}/{topic}'].type_name
+            if got != expected:
+                raise BagError(f'{bag.path}: {namespace}/{topic}: expected {expected}, got {got}')
     return found
-
-
-def _parameters(
-    bag: BagReader, namespace: str, config: Path | None, controller: Mapping[str, Any]
-) -> tuple[ByNode, ByNode]:
-    """Give the parameters of a finger's nodes, and those of them that do not follow the bag."""
-    given = recorded_parameters(bag.notes, namespace)
-    wanted = read_config(config, namespace)
-    wanted['push_controller'].update(controller)
-    used = {node: given[node] | wanted[node] for node in given}
-    used['active_sensing'] = sensing_parameters(given, wanted)
-    if not (given['active_sensing'] or names_node(config, namespace, 'active_sensing')):
-        del used['active_sensing']
-    return used, wanted
-
-
-def _change(
-    fingers: Mapping[str, Finger],
-    parameters: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any]]],
-    event: Any,
-) -> None:
-    """Let a finger's nodes know of parameters that changed and are not wanted otherwise."""
-    name, changed = changed_parameters(event)
-    for namespace, finger in fingers.items():
-        node = name.removeprefix(namespace)
-        if name.startswith(namespace) and '/' not in node:
-            wanted = parameters[namespace][1].get(node, {})
-            finger.change(node, {k: v for k, v in changed.items() if k not in wanted})
-
-
-def _write(writer: BagWriter, namespace: str, topic: str, data: bytes, log_time: int) -> None:
-    writer.write(f'{namespace}{topic}', data, log_time, log_time)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from tactile_push.control import INACTIVE, PUSHING, STATES, tick_values
 from tactile_push.parameters.push_controller import PushControllerParameters, make_control
 from tactile_push.pipeline.stamps import epoch_of, seconds_since
-from tactile_push.replay.controller import Controller
+from tactile_push.replay.controller import ReplayedController
 from tactile_push.replay.own_ticks import OwnTicks
 
 CHECKED = settings(derandomize=True, deadline=None, max_examples=150)
@@ -88,14 +88,14 @@ class Live:
 
 def replayed(live, start=0, overridden=(), **given):
     """Give the ticks of a bag that begins at an entry of what was heard."""
-    controller = Controller(given, set(overridden), EPOCH)
+    controller = ReplayedController(PushControllerParameters.of(given), overridden, EPOCH)
     ticks = []
     for log_time, what, *rest in live.heard[start:]:
         if what == 'contact':
-            ticks += controller.contact(*rest, log_time)
+            ticks += controller.feel(*rest, log_time)
         else:
             ticks += controller.state(*rest, log_time)
-    return [*ticks, *controller.go_on(math.inf)]
+    return [*ticks, *controller.finish()]
 
 
 def same(replayed, lived):
@@ -223,12 +223,12 @@ def test_a_record_without_the_later_fields_can_be_followed():
 
 
 def test_without_a_record_the_law_ticks_at_its_own_rate_from_the_first_contact_on():
-    own = OwnTicks({}, EPOCH)
+    own = OwnTicks(PushControllerParameters(), EPOCH)
     control = make_control(PushControllerParameters())
     ticks, expected = [], []
     for k in range(41):  # every 50 ms
         at = BEGIN * 10**9 + k * 50_000_000
-        ticks += own.reading(0.3 - 0.005 * k, stamp_of(at), at)
+        ticks += own.feel(0.3 - 0.005 * k, stamp_of(at), at)
     control.activate(seconds(BEGIN * 10**9))
     for k in range(20):
         at = BEGIN * 10**9 + 2 * k * 50_000_000
@@ -241,11 +241,11 @@ def test_without_a_record_the_law_ticks_at_its_own_rate_from_the_first_contact_o
 
 
 def test_without_contacts_there_is_nothing_to_tick_on_and_silence_stops():
-    own = OwnTicks({}, EPOCH)
+    own = OwnTicks(PushControllerParameters(), EPOCH)
     begin = BEGIN * 10**9
-    assert not list(own.reading(None, stamp_of(begin), begin))
-    assert not list(own.reading(0.2, stamp_of(begin + 1), begin))
-    ticks = list(own.reading(None, stamp_of(begin + 10 * PERIOD), begin))
+    assert not list(own.feel(None, stamp_of(begin), begin))
+    assert not list(own.feel(0.2, stamp_of(begin + 1), begin))
+    ticks = list(own.feel(None, stamp_of(begin + 10 * PERIOD), begin))
     assert [tick.tick.state for tick in ticks[:4]] == [PUSHING] * 4
     assert all(tick.tick.v_x == 0.0 for tick in ticks[4:])
     assert INACTIVE in STATES

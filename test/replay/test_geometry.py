@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from tactile_push.parameters.contact_geometry import ContactGeometryParameters, make_finder
 from tactile_push.pipeline.stamps import epoch_of, seconds_since
-from tactile_push.replay.geometry import Geometry
+from tactile_push.replay.geometry import ReplayedGeometry
 from tactile_push.tactile import REFUSALS, Reading, ReadingRejectedError
 
 CHECKED = settings(derandomize=True, deadline=None, max_examples=150)
@@ -65,6 +65,10 @@ class Live:
         self.states.append(message(state, state.values(), stamp(nanoseconds)))
 
 
+def geometry_of(**given):
+    return ReplayedGeometry(ContactGeometryParameters.of(given), EPOCH)
+
+
 def outcome(felt):
     theta = math.nan if felt.contact is None else felt.contact.theta
     return felt.stamp, repr(theta), felt.refusal
@@ -98,7 +102,7 @@ def test_what_the_node_took_comes_out_again_to_the_bit_in_its_own_order(steps):
             live.read(*how[:2], now + how[2] * 1_000_000)
         else:
             live.turn([how[0], 0.01], now + how[1] * 1_000_000)
-    geometry = Geometry({}, EPOCH, as_recorded=True)
+    geometry = geometry_of()
     assert [outcome(geometry.state(state)) for state in live.states] == live.outcomes
 
 
@@ -107,7 +111,7 @@ def test_a_bag_that_begins_with_refused_readings_begins_with_the_first_that_was_
     live.read(0.0, AHEAD, 0)  # the joints are not known
     live.turn([0.05, 0.0], 5_000_000)
     live.read(0.0, AHEAD, 10_000_000)
-    geometry = Geometry({}, EPOCH, as_recorded=True)
+    geometry = geometry_of()
     first, second = map(geometry.state, live.states)
     assert first is None
     assert outcome(second) == live.outcomes[1]
@@ -115,11 +119,13 @@ def test_a_bag_that_begins_with_refused_readings_begins_with_the_first_that_was_
 
 def test_without_a_record_readings_and_joints_are_taken_as_they_come():
     live = Live()
-    geometry = Geometry({}, EPOCH, as_recorded=False)
+    geometry = geometry_of()
     felt = []
     for k in range(50):
         live.turn([0.01 * k, 0.0], 20_000_000 * k)
-        geometry.joint_states(live.joints[-1])
+        turned = live.joints[-1]
+        at = turned.header.stamp.sec, turned.header.stamp.nanosec
+        geometry.step.joint_states(at, turned.name, turned.position)
         live.read(0.0, AHEAD, 20_000_000 * k + 7_000_000)
         felt.append(geometry.tactile(live.tactile[-1]))
     assert [outcome(one) for one in felt] == live.outcomes
@@ -127,7 +133,7 @@ def test_without_a_record_readings_and_joints_are_taken_as_they_come():
 
 
 def test_messages_of_something_else_are_refused_like_by_the_node():
-    geometry = Geometry({'use_joint_states': False}, EPOCH, as_recorded=False)
+    geometry = geometry_of(use_joint_states=False)
     felt = geometry.tactile(message(('force',), (1.0,), stamp(0)))
     assert felt.refusal == 'no azimuth and elevation'
     felt = geometry.tactile(message(('azimuth', 'elevation'), (0.0, AHEAD), -(10**9)))
@@ -135,7 +141,7 @@ def test_messages_of_something_else_are_refused_like_by_the_node():
 
 
 def test_parameters_that_change_take_effect():
-    geometry = Geometry({'use_joint_states': False}, EPOCH, as_recorded=False)
+    geometry = geometry_of(use_joint_states=False)
     before = geometry.tactile(message(('azimuth', 'elevation'), (0.0, AHEAD), stamp(0)))
     geometry.change({'finger_radius': 0.027})
     after = geometry.tactile(message(('azimuth', 'elevation'), (0.0, AHEAD), stamp(10**7)))

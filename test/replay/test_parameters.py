@@ -5,14 +5,16 @@ from types import SimpleNamespace
 
 import pytest
 
-from tactile_push.replay.parameters import (
-    changed_parameters,
-    check_config,
-    names_node,
-    read_config,
-    recorded_parameters,
-    sensing_parameters,
-)
+from tactile_push.replay.parameters import FingerParameters, ParameterFile, changed_parameters
+
+
+def recorded_parameters(notes, namespace):
+    return FingerParameters.of(notes, namespace, ParameterFile(None), {}).recorded
+
+
+def sensing_parameters(recorded, wanted):
+    nodes = {node: {} for node in ('contact_geometry', 'push_controller', 'active_sensing')}
+    return FingerParameters(nodes | recorded, nodes | wanted, senses=True).sensing
 
 
 def test_parameters_of_a_finger_are_those_of_its_namespace():
@@ -25,33 +27,33 @@ def test_parameters_of_a_finger_are_those_of_its_namespace():
             }
         )
     }
-    assert recorded_parameters(notes, '/')['push_controller'] == {'kp': 0.05}
-    assert recorded_parameters(notes, '/')['contact_geometry'] == {}
-    assert recorded_parameters(notes, '/left/')['push_controller'] == {'kp': 0.06}
-    assert recorded_parameters(notes, '/left/')['contact_geometry'] == {'finger_radius': 0.01}
-    assert recorded_parameters({}, '/')['push_controller'] == {}
+    assert recorded_parameters(notes, '')['push_controller'] == {'kp': 0.05}
+    assert recorded_parameters(notes, '')['contact_geometry'] == {}
+    assert recorded_parameters(notes, '/left')['push_controller'] == {'kp': 0.06}
+    assert recorded_parameters(notes, '/left')['contact_geometry'] == {'finger_radius': 0.01}
+    assert recorded_parameters({}, '')['push_controller'] == {}
 
 
 @pytest.mark.parametrize(
     ('section', 'namespace', 'meant'),
     [
-        ('push_controller', '/', True),
-        ('/push_controller', '/', True),
-        ('/**', '/', True),
-        ('/**/push_controller', '/', True),
-        ('/**/push_controller', '/left/', True),
-        ('/*/push_controller', '/left/', True),
-        ('/left/push_controller', '/left/', True),
-        ('/left/push_controller', '/', False),
-        ('push_controller', '/left/', False),
-        ('/**/sim_plant', '/', False),
-        ('/**/my_push_controller', '/', False),
+        ('push_controller', '', True),
+        ('/push_controller', '', True),
+        ('/**', '', True),
+        ('/**/push_controller', '', True),
+        ('/**/push_controller', '/left', True),
+        ('/*/push_controller', '/left', True),
+        ('/left/push_controller', '/left', True),
+        ('/left/push_controller', '', False),
+        ('push_controller', '/left', False),
+        ('/**/sim_plant', '', False),
+        ('/**/my_push_controller', '', False),
     ],
 )
 def test_sections_are_for_whom_rcl_takes_them_to_be(tmp_path, section, namespace, meant):
     file = tmp_path / 'gains.yaml'
     file.write_text(f'{section}:\n  ros__parameters:\n    kp: 0.07\n')
-    values = read_config(file, namespace)
+    values = ParameterFile(file).values(namespace)
     assert values['push_controller'] == ({'kp': 0.07} if meant else {})
 
 
@@ -70,9 +72,9 @@ def test_sections_are_for_whom_rcl_takes_them_to_be(tmp_path, section, namespace
 def test_node_is_named_by_its_name_alone(tmp_path, section, named):
     file = tmp_path / 'object.yaml'
     file.write_text(f'{section}:\n  ros__parameters:\n    edge: 0\n')
-    namespace = '/' if section == 'active_sensing' else '/left/'
-    assert names_node(file, namespace, 'active_sensing') == named
-    assert not names_node(None, namespace, 'active_sensing')
+    namespace = '' if section == 'active_sensing' else '/left'
+    assert ParameterFile(file).names(namespace, 'active_sensing') == named
+    assert not ParameterFile(None).names(namespace, 'active_sensing')
 
 
 def test_wanted_comes_before_recorded_and_that_before_what_other_nodes_know():
@@ -120,7 +122,7 @@ def test_file_that_says_nothing_of_use_is_refused_with_the_place(tmp_path, text,
     file = tmp_path / 'gains.yaml'
     file.write_text(text)
     with pytest.raises(ValueError, match=words) as refused:
-        read_config(file, '/')
+        ParameterFile(file).values('')
     assert str(file) in str(refused.value)
     assert '\n' not in str(refused.value)
 
@@ -128,8 +130,8 @@ def test_file_that_says_nothing_of_use_is_refused_with_the_place(tmp_path, text,
 def test_clock_of_the_nodes_may_stand_in_the_file(tmp_path):
     file = tmp_path / 'simulated.yaml'
     file.write_text('/**:\n  ros__parameters:\n    use_sim_time: true\n    kp: 0.1\n')
-    assert read_config(file, '/')['push_controller']['kp'] == 0.1
-    check_config(file, ['/'])
+    assert ParameterFile(file).values('')['push_controller']['kp'] == 0.1
+    ParameterFile(file).check([''])
 
 
 def test_event_tells_what_changed():

@@ -4,16 +4,19 @@
 
 import json
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 from unittest.mock import patch
 
 import rclpy
+from geometry_msgs.msg import PoseWithCovarianceStamped
 from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState
 
 from tactile_push.bags import BagReader, BagWriter
 from tactile_push.nodes.active_sensing import ActiveSensingNode
+from tactile_push.pipeline import Sensing
 from tactile_push.pipeline.stamps import epoch_of, seconds_since
 
 DATA = Path(__file__).parents[1] / 'data'
@@ -47,17 +50,21 @@ def said_by_a_node(bag, from_tick=0):
         node = ActiveSensingNode()
         said = []
 
-        def published(topic):
+        def publisher(topic, kind):
             def publish(message):
                 said.append(Said(topic, serialize_message(message), tick.log_time))
 
-            return publish
+            return SimpleNamespace(msg_type=kind, publish=publish)
 
+        outputs = {
+            topic.removeprefix('/'): publisher(topic, kind)
+            for topic, kind in ((STATE, JointState), (POSE, PoseWithCovarianceStamped))
+        }
+        # The clock of this machine is days away from that of the bag.
+        sensing = Sensing(node._sensing.sensing, partial(seconds_since, epoch))
         with (
-            patch.object(node, '_state', SimpleNamespace(publish=published(STATE))),
-            patch.object(node, '_pose', SimpleNamespace(publish=published(POSE))),
-            # The clock of this machine is days away from that of the bag.
-            patch.object(node, '_time', SimpleNamespace(of=lambda s: seconds(epoch, s))),
+            patch.object(node, '_outputs', outputs),
+            patch.object(node, '_sensing', sensing),
         ):
             for tick in ticks:
                 node._on_tick(deserialize_message(tick.data, JointState))
@@ -65,10 +72,6 @@ def said_by_a_node(bag, from_tick=0):
     finally:
         rclpy.shutdown()
     return said
-
-
-def seconds(epoch, stamp):
-    return seconds_since(epoch, stamp.sec, stamp.nanosec)
 
 
 def with_sensing(bag, said, out, begin=0, pose_first=False):
