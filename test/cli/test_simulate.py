@@ -14,6 +14,12 @@ import matplotlib.image
 import numpy as np
 import pytest
 
+from support.expected import (
+    BLOCK_L,
+    FIGURE_8_END,
+    FIGURE_8_SETTLE_STEP,
+    each_step_of_figure_8,
+)
 from tactile_push.cli import main
 
 R = 0.0135  # of the finger's disk
@@ -125,10 +131,7 @@ def test_json_has_a_value_for_the_start_of_every_step_in_si(simulate):
     assert run['settle_step'] is None
 
 
-# Computed outside this package: theta and phi at k in degrees.
-@pytest.mark.parametrize(
-    ('k', 'theta', 'phi'), [(20, 18.19, 110.5), (50, 10.73, 109.8), (100, 0.83, 98.5)]
-)
+@each_step_of_figure_8
 def test_the_defaults_are_the_step_response_of_figure_8(fig_8, k, theta, phi):
     assert fig_8['c'] == pytest.approx(0.0187, rel=1e-12)
     assert math.degrees(fig_8['theta'][k]) == pytest.approx(theta, abs=0.006)
@@ -136,15 +139,14 @@ def test_the_defaults_are_the_step_response_of_figure_8(fig_8, k, theta, phi):
 
 
 def test_figure_8_settles_and_translates_where_the_reference_does(fig_8):
-    assert math.degrees(fig_8['theta'][173]) == pytest.approx(-6.10, abs=0.006)
-    assert math.degrees(fig_8['phi'][173]) == pytest.approx(88.5, abs=0.06)
-    assert fig_8['settle_step'] == 192
-    assert math.degrees(fig_8['theta'][-1]) == pytest.approx(-10.0, abs=0.01)
-    assert math.degrees(fig_8['phi'][-1]) == pytest.approx(82.6, abs=0.06)
-    assert fig_8['d'][-1] == pytest.approx(0.00107, abs=6e-6)
+    theta, phi, d = FIGURE_8_END
+    assert fig_8['settle_step'] == FIGURE_8_SETTLE_STEP
+    assert math.degrees(fig_8['theta'][-1]) == pytest.approx(theta, abs=0.01)
+    assert math.degrees(fig_8['phi'][-1]) == pytest.approx(phi, abs=0.06)
+    assert fig_8['d'][-1] == pytest.approx(d, abs=6e-6)
     # (17): the centre of mass lies on the ray of pushing.
     assert fig_8['d'][-1] == pytest.approx(
-        0.02375 / math.tan(fig_8['theta'][-1] - fig_8['phi'][-1]), abs=1e-5
+        BLOCK_L / math.tan(fig_8['theta'][-1] - fig_8['phi'][-1]), abs=1e-5
     )
 
 

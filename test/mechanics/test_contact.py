@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from support.strategies import convex_polygons
 from tactile_push.mechanics import Outline, Pose, clearance, contact, piece_at, reach, tangent_angle
 from tactile_push.mechanics.contact import rotated
 
@@ -18,19 +19,6 @@ positions = st.floats(-0.3, 0.3)
 angles = st.floats(-7.0, 7.0)
 radii = st.floats(1e-4, 0.05)
 turns = st.floats(-3.0, 3.0)
-
-
-@st.composite
-def convex_polygons(draw):
-    # Points on a circle, stretched and turned, around a point between them.
-    shares = np.array(draw(st.lists(st.floats(0.2, 1.0), min_size=3, max_size=7)))
-    around = 2.0 * math.pi * np.cumsum(shares) / shares.sum()
-    turn, stretch = draw(angles), draw(st.floats(0.3, 1.0))
-    x, y = 0.04 * np.cos(around), 0.04 * stretch * np.sin(around)
-    cos, sin = math.cos(turn), math.sin(turn)
-    corners = np.stack([cos * x - sin * y, sin * x + cos * y], axis=1)
-    weights = np.array([draw(st.floats(0.05, 1.0)) for _ in shares])
-    return corners - weights @ corners / weights.sum()
 
 
 def walked(corners, r, sigma):

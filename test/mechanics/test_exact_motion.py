@@ -10,6 +10,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from support.strategies import frictions
 from tactile_push.mechanics import (
     FREE,
     SLIP_LEFT,
@@ -32,7 +33,7 @@ coordinates = st.floats(-1.0, 1.0)
 angles = st.floats(-math.pi, math.pi)
 directions = st.floats(0.05, math.pi - 0.05)
 distances = st.floats(0.1, 2.0)
-frictions = st.sampled_from([0.0, math.inf]) | st.floats(1e-3, 5.0)
+mu_cs = frictions()
 loads = st.floats(0.1, 2.0)
 feet = st.lists(st.tuples(coordinates, coordinates, loads), min_size=2, max_size=9)
 grid = st.integers(-3, 3)
@@ -507,7 +508,7 @@ def test_a_rod_on_its_ends_moves_as_computed_by_hand(v_p, x_c, mu_c, expected, s
 
 
 @checked
-@given(feet, angles, coordinates, distances, frictions, angles)
+@given(feet, angles, coordinates, distances, mu_cs, angles)
 def test_pushes_obey_coulomb_at_the_support_and_the_contact(standing, beta, x_c, l, mu_c, angle):
     support = resting_on(standing)
     v_p = math.cos(beta), math.sin(beta)
@@ -567,7 +568,7 @@ def test_2000_pushes_dissipate_what_the_finger_supplies(friction):
         assert_touching(push, *v_p, d, -l)
         met.add(push[4])
         f_t, f_n, m, speed = friction_sum(push, support, d, -l)
-        if speed.min() > 1e-5 * speed.max():  # or else not all frictions are known
+        if speed.min() > 1e-5 * speed.max():  # or else not all mu_cs are known
             slack = 1e-7 * support[2].sum()
             v_ox, v_oy = push[0] + push[2] * l, push[1] + push[2] * d
             assert abs(m) <= slack * (1.0 + math.hypot(d, l))
@@ -600,7 +601,7 @@ def test_a_push_through_the_centre_of_friction_translates_within_the_projected_c
 
 
 @checked
-@given(feet, directions, coordinates, distances, frictions)
+@given(feet, directions, coordinates, distances, mu_cs)
 def test_mirror_images_mirror(standing, beta, x_c, l, mu_c):
     support = spread_under(standing)
     v_px, v_py = math.cos(beta), math.sin(beta)
@@ -614,7 +615,7 @@ def test_mirror_images_mirror(standing, beta, x_c, l, mu_c):
 
 
 @checked
-@given(feet, directions, coordinates, distances, frictions, angles)
+@given(feet, directions, coordinates, distances, mu_cs, angles)
 def test_the_objects_frame_does_not_matter(standing, beta, x_c, l, mu_c, angle):
     support = spread_under(standing)
     v_p = math.cos(beta), math.sin(beta)
@@ -626,7 +627,7 @@ def test_the_objects_frame_does_not_matter(standing, beta, x_c, l, mu_c, angle):
 
 
 @checked
-@given(feet, directions, coordinates, distances, frictions, st.floats(1e-4, 1e4))
+@given(feet, directions, coordinates, distances, mu_cs, st.floats(1e-4, 1e4))
 def test_a_larger_rig_moves_as_the_small_one(standing, beta, x_c, l, mu_c, scale):
     support = spread_under(standing)
     v_p = math.cos(beta), math.sin(beta)
@@ -638,7 +639,7 @@ def test_a_larger_rig_moves_as_the_small_one(standing, beta, x_c, l, mu_c, scale
 
 
 @checked
-@given(feet, directions, coordinates, distances, frictions, st.floats(1e-6, 1e6))
+@given(feet, directions, coordinates, distances, mu_cs, st.floats(1e-6, 1e6))
 def test_a_faster_finger_moves_the_object_faster_and_not_otherwise(
     standing, beta, x_c, l, mu_c, speed
 ):
@@ -652,7 +653,7 @@ def test_a_faster_finger_moves_the_object_faster_and_not_otherwise(
 
 
 @checked
-@given(feet, directions, coordinates, distances, frictions, st.floats(1e-3, 1e3))
+@given(feet, directions, coordinates, distances, mu_cs, st.floats(1e-3, 1e3))
 def test_mu_s_does_not_change_the_motion(standing, beta, x_c, l, mu_c, mu_s):
     support = spread_under(standing)
     v_p = math.cos(beta), math.sin(beta)
@@ -664,7 +665,7 @@ def test_mu_s_does_not_change_the_motion(standing, beta, x_c, l, mu_c, mu_s):
 
 
 @checked
-@given(feet, directions, coordinates, distances, frictions)
+@given(feet, directions, coordinates, distances, mu_cs)
 def test_split_points_and_points_without_load_change_nothing(standing, beta, x_c, l, mu_c):
     support = spread_under(standing)
     v_p = math.cos(beta), math.sin(beta)
@@ -701,7 +702,7 @@ def test_huge_friction_is_nearly_infinite_and_tiny_friction_nearly_none(standing
 def pushes_about_a_point(count, seed, numbers):
     """Make pushes that turn the object about one of its support points, by construction.
 
-    The others' frictions are known, the still one's is chosen below its load: so are the force, its
+    The others' mu_cs are known, the still one's is chosen below its load: so are the force, its
     line, on which the contact lies, and the contact's velocity. The edge frame is turned so that
     the force is on the wanted side of the friction cone's middle.
     """
@@ -869,7 +870,7 @@ def test_a_block_on_its_corners_and_centre_is_pushed_at_every_regular_place(mu_c
     directions,
     coordinates,
     distances,
-    frictions,
+    mu_cs,
 )
 def test_a_support_on_a_line_is_as_good_as_any(standing, angle, beta, x_c, l, mu_c):
     support = resting_on([(x, 0.0, load) for x, load in standing])
@@ -883,7 +884,7 @@ def test_a_support_on_a_line_is_as_good_as_any(standing, angle, beta, x_c, l, mu
 
 
 @checked
-@given(feet, directions, coordinates, distances, frictions, loads)
+@given(feet, directions, coordinates, distances, mu_cs, loads)
 def test_a_support_point_may_lie_at_the_contact(standing, beta, x_c, l, mu_c, load):
     # The contact is where one of the points is, after the centre has become the origin.
     support = resting_on(standing + [(x_c, -l, load)])
@@ -897,7 +898,7 @@ def test_a_support_point_may_lie_at_the_contact(standing, beta, x_c, l, mu_c, lo
 
 
 @checked
-@given(feet, directions, coordinates, distances, frictions, st.floats(1e-7, 1e-2))
+@given(feet, directions, coordinates, distances, mu_cs, st.floats(1e-7, 1e-2))
 def test_one_point_may_bear_almost_everything(standing, beta, x_c, l, mu_c, light):
     support = resting_on([(x, y, light * load) for x, y, load in standing] + [(0.1, 0.2, 1.0)])
     v_p = math.cos(beta), math.sin(beta)

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from support.strategies import frictions
 from tactile_push.mechanics import (
     FREE,
     MODES,
@@ -30,7 +31,7 @@ coordinates = st.floats(-0.05, 0.05)
 distances = st.floats(0.005, 0.05)
 velocities = st.floats(-1.0, 1.0)
 directions = st.floats(0.01, math.pi - 0.01)
-frictions = st.sampled_from([0.0, math.inf]) | st.floats(1e-3, 5.0)
+mu_cs = frictions()
 
 
 def pushed(beta, d, l, mu_c, c, speed=1.0):
@@ -97,7 +98,7 @@ def test_a_force_moves_the_object_as_computed_by_hand():
 
 
 @checked
-@given(distances, coordinates, frictions, distances)
+@given(distances, coordinates, mu_cs, distances)
 def test_the_motion_cone_holds_the_velocities_under_the_friction_cones_edges(l, d, mu_c, c):
     alpha = math.pi / 2.0 if math.isinf(mu_c) else math.atan(mu_c)
     expected = []
@@ -364,7 +365,7 @@ def test_the_motion_is_continuous_where_slipping_begins(beta, d, l, c, mu_c):
 
 
 @checked
-@given(directions, coordinates, distances, distances, frictions)
+@given(directions, coordinates, distances, distances, mu_cs)
 def test_mirror_images_mirror(beta, d, l, c, mu_c):
     cone = friction_cone(mu_c)
     v_px, v_py = math.cos(beta), math.sin(beta)
@@ -376,7 +377,7 @@ def test_mirror_images_mirror(beta, d, l, c, mu_c):
 
 
 @checked
-@given(directions, coordinates, distances, distances, frictions, st.integers(-20, 20))
+@given(directions, coordinates, distances, distances, mu_cs, st.integers(-20, 20))
 def test_a_larger_rig_moves_as_the_small_one(beta, d, l, c, mu_c, exponent):
     scale = 2.0**exponent  # which rounds nothing
 
@@ -387,7 +388,7 @@ def test_a_larger_rig_moves_as_the_small_one(beta, d, l, c, mu_c, exponent):
 
 
 @checked
-@given(directions, coordinates, distances, distances, frictions, st.integers(-20, 20))
+@given(directions, coordinates, distances, distances, mu_cs, st.integers(-20, 20))
 def test_a_faster_finger_moves_the_object_faster_and_not_otherwise(beta, d, l, c, mu_c, exponent):
     speed = 2.0**exponent
 

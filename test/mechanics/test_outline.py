@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from support.strategies import convex_polygons
 from tactile_push.mechanics import Outline, Pose, clearance, contact, tangent_angle
 
 checked = settings(derandomize=True, deadline=None, max_examples=60)
@@ -21,19 +22,6 @@ every_polygon = pytest.mark.parametrize(
     'corners', [TRIANGLE, KITE, BLOCK], ids=['triangle', 'kite', 'block']
 )
 ELLIPSES = [(0.05, 0.03), (0.02, 0.05), (0.03, 0.03), (0.05, 0.005), (0.1, 0.02)]
-
-
-@st.composite
-def convex_polygons(draw):
-    # Points on a circle, stretched and turned, around a point between them.
-    shares = np.array(draw(st.lists(st.floats(0.2, 1.0), min_size=3, max_size=7)))
-    around = 2.0 * math.pi * np.cumsum(shares) / shares.sum()
-    turn, stretch = draw(angles), draw(st.floats(0.3, 1.0))
-    x, y = 0.04 * np.cos(around), 0.04 * stretch * np.sin(around)
-    cos, sin = math.cos(turn), math.sin(turn)
-    corners = np.stack([cos * x - sin * y, sin * x + cos * y], axis=1)
-    weights = np.array([draw(st.floats(0.05, 1.0)) for _ in shares])
-    return corners - weights @ corners / weights.sum()
 
 
 def regular(count, step=1, radius=0.03):

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from support.strategies import frictions, loaded_polygons
 from tactile_push.mechanics import (
     FREE,
     SLIP_LEFT,
@@ -46,22 +47,15 @@ betas = st.floats(0.1, math.pi - 0.1)  # push direction relative to the tangent
 shares = st.floats(0.0, 1.0, exclude_max=True)  # of the way around the object
 lengths = st.floats(1e-4, 0.01)
 ratios = st.floats(0.004, 0.04)
-frictions = st.sampled_from([0.0, math.inf]) | st.floats(1e-3, 3.0)
+mu_cs = frictions(3.0)
 angles = st.floats(-4.0, 4.0)
 
 
-@st.composite
-def bodies(draw):
-    # A convex polygon, and a support below its corners whose centre of friction is the origin.
-    parts = np.array(draw(st.lists(st.floats(0.2, 1.0), min_size=3, max_size=6)))
-    around = 2.0 * math.pi * np.cumsum(parts) / parts.sum()
-    turn, stretch = draw(angles), draw(st.floats(0.4, 1.0))
-    x, y = 0.04 * np.cos(around), 0.04 * stretch * np.sin(around)
-    cos, sin = math.cos(turn), math.sin(turn)
-    corners = np.stack([cos * x - sin * y, sin * x + cos * y], axis=1)
-    loads = np.array([draw(st.floats(0.2, 1.0)) for _ in parts])
-    corners -= loads @ corners / loads.sum()
-    return corners, np.ascontiguousarray(np.vstack([0.8 * corners.T, loads]))
+def bodies():
+    """Return a strategy for polygons with a support below their corners, balanced at the origin."""
+    return loaded_polygons(most_corners=6, least_stretch=0.4, least_load=0.2).map(
+        lambda body: (body[0], np.ascontiguousarray(np.vstack([0.8 * body[0].T, body[1]])))
+    )
 
 
 polygons = bodies().map(lambda body: Outline.polygon(body[0]))
@@ -349,7 +343,7 @@ def test_rates_on_a_disk_as_computed_by_hand():
 
 
 @checked
-@given(outlines, shares, betas, frictions, ratios, st.floats(-0.3, 0.3))
+@given(outlines, shares, betas, mu_cs, ratios, st.floats(-0.3, 0.3))
 def test_the_rates_are_those_of_the_paper_in_the_axes_of_the_support(
     outline, share, beta, mu_c, c, turn
 ):
@@ -510,7 +504,7 @@ def test_an_ellipse_moves_as_simulated_in_the_plane(mu_c, beta, share):
 
 
 @checked
-@given(bodies(), shares, betas, lengths, frictions, ratios)
+@given(bodies(), shares, betas, lengths, mu_cs, ratios)
 def test_any_polygon_moves_as_simulated_in_the_plane(body, share, beta, length, mu_c, c):
     outline = Outline.polygon(body[0])
     sigma = share * outline.path(FINGER)[-1, 0]
@@ -558,7 +552,7 @@ def test_a_block_on_support_points_moves_as_simulated_in_the_plane(sigma, beta, 
 
 
 @checked
-@given(bodies(), shares, st.floats(-math.pi, math.pi), st.floats(1e-4, 0.05), frictions, ratios)
+@given(bodies(), shares, st.floats(-math.pi, math.pi), st.floats(1e-4, 0.05), mu_cs, ratios)
 def test_the_disk_touches_or_is_away_and_never_inside(body, share, beta, length, mu_c, c):
     outline = Outline.polygon(body[0])
     path = outline.path(FINGER)
@@ -585,7 +579,7 @@ def test_the_disk_touches_or_is_away_and_never_inside(body, share, beta, length,
 
 
 @few
-@given(bodies(), shares, st.floats(-math.pi, math.pi), lengths, frictions)
+@given(bodies(), shares, st.floats(-math.pi, math.pi), lengths, mu_cs)
 def test_the_disk_touches_or_is_away_on_support_points_too(body, share, beta, length, mu_c):
     corners, support = body
     outline = Outline.polygon(corners)
@@ -655,7 +649,7 @@ def test_a_push_without_a_way_changes_nothing(speed, duration, support):
 
 
 @checked
-@given(outlines, shares, betas, lengths, frictions, ratios)
+@given(outlines, shares, betas, lengths, mu_cs, ratios)
 def test_64_pieces_of_a_push_end_where_the_push_ends(outline, share, beta, length, mu_c, c):
     sigma = share * outline.path(FINGER)[-1, 0]
     v_x, v_y = heading(outline, sigma, beta)
@@ -735,7 +729,7 @@ def test_a_push_on_support_points_is_exact_where_one_of_them_nearly_stops(
 
 
 @few
-@given(bodies(), shares, betas, st.floats(1e-4, 0.003), frictions)
+@given(bodies(), shares, betas, st.floats(1e-4, 0.003), mu_cs)
 def test_pieces_of_a_push_on_support_points_end_where_the_push_ends(
     body, share, beta, length, mu_c
 ):
@@ -757,7 +751,7 @@ def test_pieces_of_a_push_on_support_points_end_where_the_push_ends(
 
 
 @checked
-@given(outlines, shares, betas, st.floats(1e-4, 0.03), frictions, ratios)
+@given(outlines, shares, betas, st.floats(1e-4, 0.03), mu_cs, ratios)
 def test_a_push_lasts_unless_the_finger_comes_free(outline, share, beta, length, mu_c, c):
     path = outline.path(FINGER)
     sigma = share * path[-1, 0]
@@ -840,7 +834,7 @@ def mirrored(body):
 
 
 @checked
-@given(bodies(), shares, betas, lengths, frictions, ratios)
+@given(bodies(), shares, betas, lengths, mu_cs, ratios)
 def test_mirror_images_mirror(body, share, beta, length, mu_c, c):
     outline = Outline.polygon(body[0])
     first = outline.pieces[0, 3]
@@ -857,7 +851,7 @@ def test_mirror_images_mirror(body, share, beta, length, mu_c, c):
 
 
 @few
-@given(bodies(), shares, betas, st.floats(1e-4, 0.003), frictions)
+@given(bodies(), shares, betas, st.floats(1e-4, 0.003), mu_cs)
 def test_mirror_images_mirror_on_support_points(body, share, beta, length, mu_c):
     corners, support = body
     outline = Outline.polygon(corners)
@@ -876,7 +870,7 @@ def test_mirror_images_mirror_on_support_points(body, share, beta, length, mu_c)
 
 
 @checked
-@given(outlines, shares, betas, lengths, frictions, ratios, st.floats(-10.0, 10.0))
+@given(outlines, shares, betas, lengths, mu_cs, ratios, st.floats(-10.0, 10.0))
 def test_a_push_turned_as_a_whole_turns(outline, share, beta, length, mu_c, c, turn):
     path, cone = outline.path(FINGER), friction_cone(mu_c)
     sigma = share * path[-1, 0]
@@ -894,7 +888,7 @@ def test_a_push_turned_as_a_whole_turns(outline, share, beta, length, mu_c, c, t
 
 
 @checked
-@given(bodies(), shares, betas, lengths, frictions, st.integers(-10, 10), st.booleans())
+@given(bodies(), shares, betas, lengths, mu_cs, st.integers(-10, 10), st.booleans())
 def test_a_rig_that_is_larger_in_every_length_moves_alike(
     body, share, beta, length, mu_c, exponent, exact
 ):
@@ -923,7 +917,7 @@ def test_a_rig_that_is_larger_in_every_length_moves_alike(
 
 
 @checked
-@given(outlines, shares, betas, lengths, frictions, ratios, st.floats(1e-6, 1e6))
+@given(outlines, shares, betas, lengths, mu_cs, ratios, st.floats(1e-6, 1e6))
 def test_the_way_counts_and_the_speed_does_not(outline, share, beta, length, mu_c, c, faster):
     path, cone = outline.path(FINGER), friction_cone(mu_c)
     sigma = share * path[-1, 0]
@@ -1177,7 +1171,7 @@ def test_a_finger_meets_any_polygon_at_the_first_time_at_which_it_is_near(
 
 
 @checked
-@given(bodies(), angles, angles, st.floats(1.1, 1e3), frictions)
+@given(bodies(), angles, angles, st.floats(1.1, 1e3), mu_cs)
 def test_a_fast_finger_does_not_tunnel(body, angle, bearing, speed, mu_c):
     # In one motion from far away to far behind the object: it carries the object along or passes.
     outline = Outline.polygon(body[0])
@@ -1234,7 +1228,7 @@ def test_contact_is_lost_and_found_again(mu_c, support):
 
 
 @checked
-@given(outlines, shares, betas, lengths, frictions, st.floats(1e-4, 1.0))
+@given(outlines, shares, betas, lengths, mu_cs, st.floats(1e-4, 1.0))
 def test_approach_and_push_in_one_motion_are_the_two_after_each_other(
     outline, share, beta, length, mu_c, before
 ):

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from support.expected import FIGURE_8_SETTLE_STEP, assert_is_end_of_figure_8, each_step_of_figure_8
 from tactile_push.control import AHEAD, PushLaw, settle_step
 from tactile_push.mechanics import FREE, MODES, STICK, Outline, Slider, Support
 from tactile_push.simulation import RigConfig, Servo, paper_block, paper_disk, rollout, rollouts
@@ -36,30 +37,18 @@ def fig_8():
     return rollouts(BLOCK, **FIG_8, history=True)
 
 
-# Computed outside this package, see reference.md: theta and phi at k in degrees.
-@pytest.mark.parametrize(
-    ('k', 'theta', 'phi'),
-    [
-        (0, 20.0, 90.0),
-        (20, 18.19, 110.5),
-        (50, 10.73, 109.8),
-        (100, 0.83, 98.5),
-        (173, -6.10, 88.5),
-    ],
-)
+@each_step_of_figure_8
 def test_step_response_of_figure_8_in_a_batch(fig_8, k, theta, phi):
     assert math.degrees(fig_8.theta[0, k]) == pytest.approx(theta, abs=0.006)
     assert math.degrees(fig_8.phi[0, k]) == pytest.approx(phi, abs=0.06)
 
 
 def test_step_response_of_figure_8_settles_and_translates_in_a_batch(fig_8):
-    assert fig_8.settle_step.tolist() == [192]
+    assert fig_8.settle_step.tolist() == [FIGURE_8_SETTLE_STEP]
     assert fig_8.steps.tolist() == [600]
     summary = rollouts(BLOCK, **FIG_8)
-    assert summary.settle_step.tolist() == [192]
-    assert math.degrees(summary.theta[0]) == pytest.approx(-10.0, abs=0.05)
-    assert math.degrees(summary.phi[0]) == pytest.approx(82.6, abs=0.05)
-    assert summary.d[0] == pytest.approx(0.00107, abs=0.00001)
+    assert summary.settle_step.tolist() == [FIGURE_8_SETTLE_STEP]
+    assert_is_end_of_figure_8(summary.theta[0], summary.phi[0], summary.d[0])
     assert MODES[int(summary.mode[0])] == 'stick'
 
 

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from support.strategies import corners_on_ellipses
 from tactile_push.mechanics import (
     FREE,
     MODES,
@@ -445,16 +446,7 @@ def test_contact_behind_the_hemisphere_is_not_read():
     assert not read[-1]
 
 
-@st.composite
-def polygons(draw):
-    """Draw corners of a convex polygon of a few centimetres around the origin."""
-    count = draw(st.integers(3, 7))
-    jitter = draw(st.lists(st.floats(-0.3, 0.3), min_size=count, max_size=count))
-    a, b = draw(st.floats(0.008, 0.04)), draw(st.floats(0.008, 0.04))
-    angle = (np.arange(count) + jitter) * 2.0 * math.pi / count
-    return np.stack([a * np.cos(angle), b * np.sin(angle)], axis=1)
-
-
+polygons = corners_on_ellipses(most_corners=7, least_axis=0.008)
 paths = st.lists(
     st.tuples(
         st.integers(-60_000, 60_000).map(lambda speed: speed * 1e-6),
@@ -484,7 +476,7 @@ def test_finger_never_enters_a_disk(path, theta, mu_c):
 
 @given(
     path=paths,
-    corners=polygons(),
+    corners=polygons,
     theta=st.floats(-1.0, 1.0),
     share=st.floats(0.0, 1.0),
     mu_c=st.sampled_from([0.0, 0.2, 1.0, math.inf]),
@@ -526,7 +518,7 @@ def smallest_gap(corners, pose, start, end):
 
 @given(
     path=paths,
-    corners=polygons(),
+    corners=polygons,
     theta=st.floats(-1.0, 1.0),
     exact=st.booleans(),
 )
@@ -549,7 +541,7 @@ def test_object_moves_if_and_only_if_the_finger_meets_it(path, corners, theta, e
 
 @given(
     path=st.lists(st.integers(-30_000, 30_000), min_size=5, max_size=15),
-    corners=polygons(),
+    corners=polygons,
     theta=st.floats(-0.5, 0.5),
     mu_c=st.sampled_from([0.0, 0.3, math.inf]),
 )
@@ -726,7 +718,7 @@ def mirrored(config):
 
 @given(
     path=paths,
-    corners=polygons(),
+    corners=polygons,
     theta=st.floats(-1.0, 1.0),
     share=st.floats(0.0, 1.0),
     mu_c=st.sampled_from([0.0, 0.2, math.inf]),

@@ -7,6 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from support.expected import FIGURE_8_SETTLE_STEP, assert_is_end_of_figure_8, each_step_of_figure_8
+from support.strategies import corners_on_ellipses
 from tactile_push.control import AHEAD, PushLaw, settle_step
 from tactile_push.mechanics import FREE, MODES, SLIP_LEFT, SLIP_RIGHT, STICK, Outline, Slider
 from tactile_push.simulation import (
@@ -48,31 +50,15 @@ def fig_8():
     return rollout(paper_block(), papers_law(), 600)
 
 
-# Computed outside this package, see reference.md: theta and phi at k in degrees.
-@pytest.mark.parametrize(
-    ('k', 'theta', 'phi'),
-    [
-        (0, 20.0, 90.0),
-        (20, 18.19, 110.5),
-        (50, 10.73, 109.8),
-        (100, 0.83, 98.5),
-        (173, -6.10, 88.5),
-    ],
-)
+@each_step_of_figure_8
 def test_step_response_of_figure_8(fig_8, k, theta, phi):
     assert math.degrees(fig_8.theta[k]) == pytest.approx(theta, abs=0.006)
     assert math.degrees(fig_8.phi[k]) == pytest.approx(phi, abs=0.06)
 
 
 def test_step_response_of_figure_8_settles_and_translates(fig_8):
-    assert settle_step(fig_8.theta, THETA_D, math.radians(3.0)) == 192
-    assert math.degrees(fig_8.theta[-1]) == pytest.approx(-10.0, abs=0.05)
-    assert math.degrees(fig_8.phi[-1]) == pytest.approx(82.6, abs=0.05)
-    assert fig_8.d[-1] == pytest.approx(0.00107, abs=0.00001)
-    # (17): the ray of pushing passes through the centre of mass.
-    assert 0.02375 / math.tan(fig_8.theta[-1] - fig_8.phi[-1]) == pytest.approx(
-        fig_8.d[-1], abs=0.00005
-    )
+    assert settle_step(fig_8.theta, THETA_D, math.radians(3.0)) == FIGURE_8_SETTLE_STEP
+    assert_is_end_of_figure_8(fig_8.theta[-1], fig_8.phi[-1], fig_8.d[-1])
     assert fig_8.end == 'done'
 
 
@@ -270,11 +256,7 @@ def test_smaller_c_turns_faster():
 @st.composite
 def pushed_polygons(draw):
     """Draw corners of a polygon about the origin and a contact on its first edge."""
-    count = draw(st.integers(3, 6))
-    jitter = draw(st.lists(st.floats(-0.3, 0.3), min_size=count, max_size=count))
-    a, b = draw(st.floats(0.01, 0.04)), draw(st.floats(0.01, 0.04))
-    angle = (np.arange(count) + jitter) * 2.0 * math.pi / count
-    corners = np.stack([a * np.cos(angle), b * np.sin(angle)], axis=1)
+    corners = draw(corners_on_ellipses(most_corners=6, least_axis=0.01))
     along = (corners[1] - corners[0]) / math.hypot(*(corners[1] - corners[0]))
     first, last = along @ corners[0], along @ corners[1]
     return corners, first + draw(st.floats(0.05, 0.95)) * (last - first)
