@@ -3,33 +3,20 @@
 """Bags of rosbags' writer, mcap's writer and our own, read beside mcap's and rosbags' readers."""
 
 import logging
-import os
 import random
 import subprocess
 import sys
 
-import numpy as np
 import pytest
-import yaml
 import zstandard
 from hypothesis import given
 from hypothesis import strategies as st
 from mcap.reader import make_reader
 from mcap.writer import CompressionType, IndexType, Writer
 from mcap_ros2.decoder import DecoderFactory
-from rosbags.interfaces import (
-    Qos,
-    QosDurability,
-    QosHistory,
-    QosLiveliness,
-    QosReliability,
-    QosTime,
-)
-from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
 from rosbags.rosbag2 import Reader as RosbagsReader
-from rosbags.rosbag2 import Writer as RosbagsWriter
-from rosbags.typesys import Stores, get_typestore
 
+from support.bag_by_rosbags import JOINT_STATE, MODES, TYPES, joint_state, refuse, write_by_rosbags
 from support.bag_files import (
     CLOCK,
     CLOCK_DEFINITION,
@@ -40,66 +27,6 @@ from support.bag_files import (
     some_messages,
 )
 from tactile_push.bags import BagError, BagReader, BagWriter
-from tactile_push.bags.states import read_states
-
-TYPES = get_typestore(Stores.ROS2_JAZZY)
-JOINT_STATE = 'sensor_msgs/msg/JointState'
-
-QOS = Qos(
-    QosHistory.KEEP_LAST,
-    7,
-    QosReliability.BEST_EFFORT,
-    QosDurability.VOLATILE,
-    QosTime(1, 2),
-    QosTime(3, 4),
-    QosLiveliness.AUTOMATIC,
-    QosTime(5, 6),
-    False,
-)
-
-
-def refuse(line):
-    """Stand in for `warn` where nothing may be warned of."""
-    raise AssertionError(line)
-
-
-def joint_state(step):
-    """Return a sensor_msgs/JointState in CDR."""
-    stamp = TYPES.types['builtin_interfaces/msg/Time'](sec=step, nanosec=500_000_000)
-    header = TYPES.types['std_msgs/msg/Header'](stamp=stamp, frame_id='finger_base')
-    message = TYPES.types[JOINT_STATE](
-        header=header,
-        name=['theta', 'phi'],
-        position=np.array([0.5 * step, -1.0]),
-        velocity=np.array([]),
-        effort=np.array([2.0]),
-    )
-    return bytes(TYPES.serialize_cdr(message, JOINT_STATE))
-
-
-def write_by_rosbags(path, mode, storage=StoragePlugin.MCAP):
-    """Write a bag of two topics; return what was written."""
-    writer = RosbagsWriter(path, version=9, storage_plugin=storage)
-    writer.set_compression(mode, CompressionFormat.ZSTD)
-    writer.set_custom_data('object', 'block')
-    written = []
-    with writer:
-        clock = writer.add_connection('/clock', CLOCK, typestore=TYPES, offered_qos_profiles=[QOS])
-        state = writer.add_connection('/state', JOINT_STATE, typestore=TYPES)
-        for step in range(50):
-            for topic, data in ((clock, clock_message(step * SECOND)), (state, joint_state(step))):
-                time = step * SECOND + topic.id
-                writer.write(topic, time, data)
-                written.append((topic.topic, time, data))
-    return written
-
-
-MODES = [
-    CompressionMode.NONE,
-    CompressionMode.FILE,
-    CompressionMode.MESSAGE,
-    CompressionMode.STORAGE,
-]
 
 
 @pytest.mark.parametrize('has_metadata', [True, False])
@@ -248,54 +175,6 @@ def test_messages_come_in_order_of_log_time_from_any_files(tmp_path_factory, fil
     assert read == sorted(written, key=lambda each: each[1])
 
 
-def metadata_of(*files, count=0, **more):
-    """Return the text of a metadata.yaml."""
-    information = {
-        'version': 9,
-        'storage_identifier': 'mcap',
-        'relative_file_paths': list(files),
-        'message_count': count,
-        'starting_time': {'nanoseconds_since_epoch': 5 * SECOND},
-        'duration': {'nanoseconds': 3 * SECOND},
-    }
-    return yaml.safe_dump({'rosbag2_bagfile_information': {**information, **more}})
-
-
-def test_files_come_in_the_order_of_their_numbers_or_of_the_metadata(tmp_path):
-    written = some_messages(12)
-    for number, message in enumerate(written):
-        (tmp_path / f'bag_{number}.mcap').write_bytes(mcap_bytes([message]))
-    names = [f'bag_{number}.mcap' for number in range(12)]
-    with BagReader(tmp_path, refuse) as reader:
-        assert [file.name for file in reader.files] == names
-        assert as_tuples(reader.messages()) == written
-        assert sum(reader.counts.values()) == 12
-    (tmp_path / 'metadata.yaml').write_text(metadata_of(*names[3::-1]))
-    with BagReader(tmp_path, refuse) as reader:
-        assert [file.name for file in reader.files] == names[3::-1]
-        assert as_tuples(reader.messages()) == written[:4]
-
-
-def test_notes_of_metadata_records_and_of_the_metadata_file(tmp_path):
-    with open(tmp_path / 'bag_0.mcap', 'wb') as stream:
-        writer = Writer(stream)
-        writer.start('ros2')
-        writer.add_metadata('tactile_push', {'tactile_push.version': '1', 'a': 'b'})
-        writer.add_metadata('tactile_push', {'tactile_push.version': '2'})
-        writer.add_metadata('other', {'c': 'd'})
-        writer.finish()
-    (tmp_path / 'metadata.yaml').write_text(
-        metadata_of('bag_0.mcap', custom_data={'operator': 'ann', 'run': 3})
-    )
-    with BagReader(tmp_path, refuse) as reader:
-        assert reader.notes == {
-            'tactile_push.version': '2',
-            'a': 'b',
-            'operator': 'ann',
-            'run': '3',
-        }
-
-
 def test_empty_bag(tmp_path):
     (tmp_path / 'file.mcap').write_bytes(mcap_bytes([]))
     with BagReader(tmp_path / 'file.mcap', refuse) as reader:
@@ -402,135 +281,11 @@ def test_definition_that_makes_no_sense(tmp_path, capfd, definition):
     assert capfd.readouterr() == ('', '')
 
 
-@pytest.mark.parametrize('make', ['nothing', 'folder', 'folder named so', 'text', 'sqlite', 'pipe'])
-def test_what_is_no_bag(tmp_path, make):
-    path = tmp_path / 'bag.mcap'
-    if make.startswith('folder'):
-        path.mkdir()
-    if make == 'folder named so':
-        path = path / 'x.mcap'
-        path.mkdir()
-    elif make == 'text':
-        path.write_text('topics: none\n')
-    elif make == 'sqlite':
-        path.write_bytes(b'SQLite format 3\0' + bytes(100))
-    elif make == 'pipe':
-        os.mkfifo(path)
-    with pytest.raises(BagError) as error:
-        BagReader(path, refuse)
-    assert str(path) in str(error.value) and '\n' not in str(error.value)
-
-
-def test_folder_in_place_of_a_file(tmp_path):
-    (tmp_path / 'bag_0.mcap').mkdir()
-    with pytest.raises(BagError, match='bag_0.mcap'):
-        BagReader(tmp_path, refuse)
-
-
-@pytest.mark.parametrize('has_metadata', [True, False])
-def test_sqlite_bag_is_refused_with_what_to_do(tmp_path, has_metadata):
-    write_by_rosbags(tmp_path / 'bag', CompressionMode.NONE, StoragePlugin.SQLITE3)
-    if not has_metadata:
-        (tmp_path / 'bag' / 'metadata.yaml').unlink()
-    for path in (tmp_path / 'bag', tmp_path / 'bag' / 'bag.db3'):
-        with pytest.raises(
-            BagError, match=r'expected a bag stored as mcap, got sqlite3: `ros2 bag convert`'
-        ):
-            BagReader(path, refuse)
-
-
-BAD_METADATA = {
-    'no YAML': b'rosbag2_bagfile_information: [',
-    'no text': bytes(range(256)),
-    'empty': b'',
-    'a list': b'- 1',
-    'something else': b'rosbag2_bagfile_information: 3',
-    'half': b'rosbag2_bagfile_information:\n  version: 9\n',
-    'deep': b'[' * 200_000,
-    'words for numbers': metadata_of('bag_0.mcap', count='many').encode(),
-    'a folder': None,
-}
-
-
-@pytest.mark.parametrize('text', BAD_METADATA.values(), ids=BAD_METADATA)
-def test_bad_metadata_file_is_not_used(tmp_path, text):
-    written = some_messages(20)
-    (tmp_path / 'bag_0.mcap').write_bytes(mcap_bytes(written))
-    if text is None:
-        (tmp_path / 'metadata.yaml').mkdir()
-    else:
-        (tmp_path / 'metadata.yaml').write_bytes(text)
-    warnings = []
-    with BagReader(tmp_path, warnings.append) as reader:
-        assert as_tuples(reader.messages()) == written
-    (line,) = warnings
-    assert line.startswith(f'{tmp_path}/metadata.yaml: not used: ') and '\n' not in line
-
-
-def test_missing_files_are_named_and_counted(tmp_path):
-    written = some_messages(300)
-    (tmp_path / 'bag_1.mcap').write_bytes(mcap_bytes(written[:100]))
-    (tmp_path / 'metadata.yaml').write_text(
-        metadata_of('bag_0.mcap', 'bag_1.mcap', 'bag_2.mcap', count=300)
-    )
-    warnings = []
-    with BagReader(tmp_path, warnings.append) as reader:
-        assert as_tuples(reader.messages()) == written[:100]
-    first, last, summary = warnings
-    assert 'bag_0.mcap: missing' in first
-    assert 'bag_2.mcap: missing' in last
-    # The metadata tell of 3 s, of which 0.99 s are there.
-    assert '200 of the 300 messages' in summary and '2.010 s' in summary
-
-
-def test_renamed_files_are_read(tmp_path):
-    written = some_messages(20)
-    (tmp_path / 'renamed.mcap').write_bytes(mcap_bytes(written))
-    (tmp_path / 'metadata.yaml').write_text(metadata_of('bag_0.mcap'))
-    warnings = []
-    with BagReader(tmp_path, warnings.append) as reader:
-        assert as_tuples(reader.messages()) == written
-    assert len(warnings) == 1
-
-
-def test_bad_file_of_a_split_bag_is_left_out(tmp_path):
-    written = some_messages(60)
-    (tmp_path / 'bag_0.mcap').write_bytes(mcap_bytes(written[:20]))
-    (tmp_path / 'bag_1.mcap').write_bytes(b'something else')
-    (tmp_path / 'bag_2.mcap').write_bytes(mcap_bytes(written[40:]))
-    warnings = []
-    with BagReader(tmp_path, warnings.append) as reader:
-        assert as_tuples(reader.messages()) == written[:20] + written[40:]
-    (line,) = warnings
-    assert 'bag_1.mcap' in line and 'left out' in line
-
-
-def test_unknown_message_compression_is_refused(tmp_path):
-    (tmp_path / 'bag_0.mcap').write_bytes(mcap_bytes(some_messages(3)))
-    (tmp_path / 'metadata.yaml').write_text(
-        metadata_of('bag_0.mcap', compression_mode='MESSAGE', compression_format='fancy')
-    )
-    with pytest.raises(BagError, match='expected messages compressed with zstd, got fancy'):
-        BagReader(tmp_path, refuse)
-
-
 def test_warnings_are_logged_unless_somebody_takes_them(tmp_path, caplog):
     (tmp_path / 'file.mcap').write_bytes(mcap_bytes(some_messages(20))[:-1])
     with caplog.at_level(logging.WARNING), BagReader(tmp_path / 'file.mcap'):
         pass
     assert str(tmp_path / 'file.mcap') in caplog.text
-
-
-def test_states_of_a_topic(tmp_path):
-    write_by_rosbags(tmp_path / 'bag', CompressionMode.NONE)
-    states = read_states(tmp_path / 'bag', '/state')
-    assert list(states) == ['stamp', 'theta', 'phi']
-    assert states['stamp'].tolist() == [step + 0.5 for step in range(50)]
-    assert states['theta'].tolist() == [0.5 * step for step in range(50)]
-    assert states['phi'].tolist() == [-1.0] * 50
-    assert list(read_states(tmp_path / 'bag', '/nothing')) == ['stamp']
-    with pytest.raises(BagError, match=f'{CLOCK}, expected {JOINT_STATE}'):
-        read_states(tmp_path / 'bag', '/clock')
 
 
 READ_ALL = """
