@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from playwright.sync_api import sync_playwright
 
-from tactile_push.report import Episode, Run, Scene, Series, report_html
+from tactile_push.report import report_html
+from tactile_push.report.data import Episode, Run, Scene, Series
 
 SECONDS, TICKS, READINGS = 600.0, 10.0, 100.0  # of the run [s], rates [Hz]
 LOADS = 5

@@ -43,29 +43,14 @@ DISTANCES = {BLOCK: BLOCK_L, DISK: DISK_RADIUS}  # from edge or tangent to the c
 
 @dataclass(frozen=True)
 class RigResult:
-    """What came out for one rig; SI units.
-
-    Parameters
-    ----------
-    push : PushFigures
-        How well the finger pushed.
-    theta_final, phi_final : float
-        Last angles [rad].
-    d_final : float
-        True contact at the end [m].
-    known_step : int or None
-        Step from which on active sensing knows d to 2 mm; for the disk, whose d is 0 by its
-        roundness, the first one with an estimate.
-    wall_seconds : float
-        Duration of the run, processes started and stopped [s].
-    """
+    """What came out for one rig; SI units."""
 
     push: PushFigures
-    theta_final: float
-    phi_final: float
-    d_final: float
-    known_step: int | None
-    wall_seconds: float
+    theta_final: float  # [rad]
+    phi_final: float  # [rad]
+    d_final: float  # true contact at the end [m]
+    known_step: int | None  # from which active sensing knows d to 2 mm; of a disk the first one
+    wall_seconds: float  # from the start of the processes to their end [s]
 
     def as_json(self) -> dict[str, Any]:
         """Return the result as plain values, SI units."""
@@ -91,27 +76,12 @@ class DemoError(Exception):
 
 
 def run_demo(out: Path, progress: Callable[[str, int], None]) -> dict[str, RigResult]:
-    """Run both rigs, record them and draw their history.
+    """Run both rigs, record them, draw their history and return the results by rig.
 
-    Parameters
-    ----------
-    out : path
-        Folder for the bags NAME/ and the picture history.png; what an earlier demonstration left
-        there is replaced.
-    progress : callable
-        Told the rig's name and the number of steps done.
-
-    Returns
-    -------
-    dict of str to RigResult
-        The results by rig.
-
-    Raises
-    ------
-    DemoError
-        If a process ends early or nothing moves on.
-    OSError
-        If the folder cannot be written.
+    The bags NAME/ and the picture history.png go to the folder `out` and replace those of an
+    earlier demonstration. `progress` is told the rig's name and the number of steps done. Raises a
+    `DemoError` if a process ends early or nothing moves on, and an OSError if the folder cannot be
+    written.
     """
     out.mkdir(parents=True, exist_ok=True)
     results = {}

@@ -12,56 +12,25 @@ from typing import NamedTuple
 
 
 class Field(NamedTuple):
-    """A number in a sensor_msgs/JointState message.
+    """A number in a sensor_msgs/JointState message."""
 
-    Parameters
-    ----------
-    name : str
-        Name of the joint in the message.
-    unit : str
-        SI unit; empty for counts, flags and codes.
-    words : str
-        Meaning.
-    codes : str, optional
-        If the number is a code: the tuple whose index it is, such as ``'control.STATES'`` for
-        ``tactile_push.control.STATES``.
-    array : str, optional
-        Array of the message that holds the number.
-    """
-
-    name: str
-    unit: str
+    name: str  # of the joint in the message
+    unit: str  # SI; empty for counts, flags and codes
     words: str
-    codes: str = ''
-    array: str = 'position'
+    codes: str = ''  # of a code: the tuple whose index it is, such as 'control.STATES'
+    array: str = 'position'  # of the message, in which the number stands
 
 
 class Topic(NamedTuple):
-    """A topic.
+    """A topic."""
 
-    Parameters
-    ----------
-    name : str
-        Name. Relative unless it begins with a slash: a namespace makes a second finger.
-    type_name : str
-        Message type, such as ``'sensor_msgs/msg/JointState'``.
-    givers, takers : tuple of str
-        Nodes that publish it and nodes that subscribe to it.
-    content : str
-        What a message says, and when one is published.
-    fields : tuple of Field, optional
-        Numbers of a JointState message, in their order.
-    recorded : bool, optional
-        Whether the recorder takes it by default.
-    """
-
-    name: str
+    name: str  # relative unless it begins with a slash: a namespace makes a second finger
     type_name: str
-    givers: tuple[str, ...]
-    takers: tuple[str, ...]
-    content: str
-    fields: tuple[Field, ...] = ()
-    recorded: bool = True
+    givers: tuple[str, ...]  # nodes that publish it
+    takers: tuple[str, ...]  # nodes that subscribe to it
+    content: str  # what a message says, and when one is published
+    fields: tuple[Field, ...] = ()  # of a JointState message, in their order
+    recorded: bool = True  # by default
 
     @property
     def field_names(self) -> tuple[str, ...]:
@@ -70,42 +39,20 @@ class Topic(NamedTuple):
 
 
 class Service(NamedTuple):
-    """A service.
+    """A service."""
 
-    Parameters
-    ----------
-    name : str
-        Name; ``~`` stands for the node's name.
-    type_name : str
-        Service type.
-    node : str
-        Node that offers it.
-    content : str
-        What it does.
-    """
-
-    name: str
+    name: str  # ~ stands for the node's name
     type_name: str
     node: str
     content: str
 
 
 class NodeSummary(NamedTuple):
-    """A node.
+    """A node."""
 
-    Parameters
-    ----------
-    name : str
-        Name of the node, of its executable and of its module in `tactile_push.nodes`.
-    summary : str
-        What it does.
-    managed : bool, optional
-        Whether it is a managed (lifecycle) node.
-    """
-
-    name: str
+    name: str  # of the node, its executable and its module in `tactile_push.nodes`
     summary: str
-    managed: bool = False
+    managed: bool = False  # whether it is a managed (lifecycle) node
 
 
 # Frames.
@@ -187,14 +134,11 @@ def _estimated(name: str, unit: str, words: str) -> tuple[Field, ...]:
     )
 
 
+# fmt: off
 TOPICS = {
     topic.name: topic
     for topic in (
-        Topic(
-            TACTILE,
-            JOINT_STATE_TYPE,
-            (SENSOR_DRIVER,),
-            (CONTACT_GEOMETRY,),
+        Topic(TACTILE, JOINT_STATE_TYPE, (SENSOR_DRIVER,), (CONTACT_GEOMETRY,),
             'a reading of the sensor in `fingertip`, stamped when it was read; NaN is no contact '
             'or not measured',
             (
@@ -203,10 +147,7 @@ TOPICS = {
                 Field('normal_force', 'N', 'normal force, in `effort` instead', array='effort'),
             ),
         ),
-        Topic(
-            JOINT_STATES,
-            JOINT_STATE_TYPE,
-            ('the finger', SIM_PLANT),
+        Topic(JOINT_STATES, JOINT_STATE_TYPE, ('the finger', SIM_PLANT),
             (CONTACT_GEOMETRY, PUSH_CONTROLLER),
             'angles of the moving joints of the finger; the parameters `joint_names` name them',
             (
@@ -214,19 +155,11 @@ TOPICS = {
                 Field('distal_joint', 'rad', 'angle of the second moving joint'),
             ),
         ),
-        Topic(
-            CONTACT,
-            POSE_TYPE,
-            (CONTACT_GEOMETRY,),
-            (PUSH_CONTROLLER, SIM_PLANT),
+        Topic(CONTACT, POSE_TYPE, (CONTACT_GEOMETRY,), (PUSH_CONTROLLER, SIM_PLANT),
             'in `finger_disk`: the position is the contact point [m], the yaw is theta [rad]; '
             'stamped as the reading; nothing is published without a contact',
         ),
-        Topic(
-            GEOMETRY_STATE,
-            JOINT_STATE_TYPE,
-            (CONTACT_GEOMETRY,),
-            (),
+        Topic(GEOMETRY_STATE, JOINT_STATE_TYPE, (CONTACT_GEOMETRY,), (),
             'what became of each reading; published while somebody subscribes',
             (
                 Field('azimuth', 'rad', 'azimuth of the reading'),
@@ -236,19 +169,11 @@ TOPICS = {
                 Field('refusal', '', 'why the reading was refused', 'tactile.REFUSALS'),
             ),
         ),
-        Topic(
-            COMMAND,
-            TWIST_TYPE,
-            (PUSH_CONTROLLER,),
-            ('the finger', SIM_PLANT, PUSH_CONTROLLER),
+        Topic(COMMAND, TWIST_TYPE, (PUSH_CONTROLLER,), ('the finger', SIM_PLANT, PUSH_CONTROLLER),
             'in `finger_base`: `linear.x` [m/s]; nothing before the first contact, 0 when the '
             'contact is lost',
         ),
-        Topic(
-            CONTROLLER_STATE,
-            JOINT_STATE_TYPE,
-            (PUSH_CONTROLLER,),
-            (ACTIVE_SENSING,),
+        Topic(CONTROLLER_STATE, JOINT_STATE_TYPE, (PUSH_CONTROLLER,), (ACTIVE_SENSING,),
             'everything that one control period used and gave',
             (
                 Field('theta', 'rad', 'angle of the pushed edge'),
@@ -269,20 +194,12 @@ TOPICS = {
                 Field('finger_age', 's', 'age of finger_x'),
             ),
         ),
-        Topic(
-            OBJECT_POSE,
-            UNCERTAIN_POSE_TYPE,
-            (ACTIVE_SENSING,),
-            (),
+        Topic(OBJECT_POSE, UNCERTAIN_POSE_TYPE, (ACTIVE_SENSING,), (),
             "in `finger_disk`: estimate of the object's centre of mass and orientation with its "
             'covariance; stamped as the reading; nothing is published while nothing is known or '
             'readings contradict the object',
         ),
-        Topic(
-            SENSING_STATE,
-            JOINT_STATE_TYPE,
-            (ACTIVE_SENSING,),
-            (),
+        Topic(SENSING_STATE, JOINT_STATE_TYPE, (ACTIVE_SENSING,), (),
             'the estimate after each control period, as of the last reading; NaN is unknown',
             (
                 *_estimated('d', 'm', 'contact location along the edge'),
@@ -292,37 +209,21 @@ TOPICS = {
                 Field('edge', '', 'the likeliest edge, 0 from the first corner to the second'),
                 Field('edge_weight', '', 'probability of that edge'),
                 Field('surprise', '', 'how unexpected the readings are; 1 on average'),
-                Field(
-                    'contradiction',
-                    '',
-                    'how the readings contradict the object',
-                    'estimation.CONTRADICTIONS',
-                ),
+                Field('contradiction', '', 'how the readings contradict the object',
+                    'estimation.CONTRADICTIONS'),
                 Field('readings', '', 'readings used since everything was forgotten'),
                 Field('age', 's', 'age of the last reading'),
             ),
         ),
-        Topic(
-            SENSING_MARKERS,
-            MARKERS_TYPE,
-            (ACTIVE_SENSING,),
-            (),
+        Topic(SENSING_MARKERS, MARKERS_TYPE, (ACTIVE_SENSING,), (),
             'the outline at its estimated pose, the centre of mass along the 95 % and the '
             'guaranteed interval; published while somebody subscribes',
             recorded=False,
         ),
-        Topic(
-            TRUE_POSE,
-            POSE_TYPE,
-            (SIM_PLANT,),
-            (),
+        Topic(TRUE_POSE, POSE_TYPE, (SIM_PLANT,), (),
             "in `finger_disk`: the object's true centre of mass and orientation",
         ),
-        Topic(
-            TRUE_STATE,
-            JOINT_STATE_TYPE,
-            (SIM_PLANT,),
-            (),
+        Topic(TRUE_STATE, JOINT_STATE_TYPE, (SIM_PLANT,), (),
             'what only the simulator knows',
             (
                 Field('theta', 'rad', 'true angle of the edge; NaN without a contact'),
@@ -336,39 +237,24 @@ TOPICS = {
                 Field('belt_travel', 'm', 'how far the belt has moved'),
             ),
         ),
-        Topic(
-            MARKERS,
-            MARKERS_TYPE,
-            (SIM_PLANT,),
-            (),
+        Topic(MARKERS, MARKERS_TYPE, (SIM_PLANT,), (),
             'finger, object, belt, contact normal, friction cone and push ray',
             recorded=False,
         ),
-        Topic(
-            CLOCK,
-            'rosgraph_msgs/msg/Clock',
-            (SIM_PLANT, BAG_PLAYER),
-            tuple(NODES),
+        Topic(CLOCK, 'rosgraph_msgs/msg/Clock', (SIM_PLANT, BAG_PLAYER), tuple(NODES),
             "simulated time, with the parameter `publish_clock`; a bag's time, with `clock`; nodes "
             'with `use_sim_time` follow it',
         ),
-        Topic(
-            DIAGNOSTICS,
-            'diagnostic_msgs/msg/DiagnosticArray',
-            tuple(NODES),
-            (),
+        Topic(DIAGNOSTICS, 'diagnostic_msgs/msg/DiagnosticArray', tuple(NODES), (),
             'health of each node with ages, counts by reason and their rates; once a second, and '
             'at once when the level changes',
         ),
-        Topic(
-            PARAMETER_EVENTS,
-            'rcl_interfaces/msg/ParameterEvent',
-            tuple(NODES),
-            (),
+        Topic(PARAMETER_EVENTS, 'rcl_interfaces/msg/ParameterEvent', tuple(NODES), (),
             "changes of a node's parameters, which every ROS 2 node publishes",
         ),
     )
 }
+# fmt: on
 RECORDED = tuple(name for name, topic in TOPICS.items() if topic.recorded)
 
 SERVICES = (
@@ -384,20 +270,10 @@ SERVICES = (
 
 
 def fingers(topics: Iterable[str], having: Collection[str]) -> dict[str, set[str]]:
-    """Return the fingers that a bag has topics of.
+    """Return the package's topics of each finger in a bag, by the finger's namespace.
 
-    Parameters
-    ----------
-    topics : iterable of str
-        Full names of the bag's topics.
-    having : collection of str
-        Relative topic names; a finger counts if it has at least one of them.
-
-    Returns
-    -------
-    dict of str to set of str
-        The package's topics of each finger, by relative name, keyed by the finger's namespace
-        (``''`` or such as ``'/left'``), in the order of the first topic in `having`.
+    `topics` are the bag's topics by full name. A finger counts if it has one of the relative names
+    `having`. Namespaces are ``''`` or such as ``'/left'``, in the order of the first such topic.
     """
     relative = sorted((name for name in TOPICS if name[0] != '/'), key=len, reverse=True)
     found: dict[str, set[str]] = {}
@@ -417,18 +293,5 @@ def fingers(topics: Iterable[str], having: Collection[str]) -> dict[str, set[str
 
 
 def node_in(namespace: str, node: str) -> str:
-    """Return the name by which a bag's recorded parameters know a node.
-
-    Parameters
-    ----------
-    namespace : str
-        Namespace of the finger (``''`` or such as ``'/left'``).
-    node : str
-        Name of the node.
-
-    Returns
-    -------
-    str
-        Full name without the leading slash.
-    """
+    """Return the name by which a bag's recorded parameters know a finger's node."""
     return f'{namespace}/{node}'.removeprefix('/')

@@ -51,35 +51,17 @@ TRANSLATING_STEP = 400  # the object translates from this step on: the ranges ar
 
 @dataclass(frozen=True)
 class PaperFigures:
-    """What the paper publishes of an experiment with the real finger.
+    """What the paper publishes of an experiment with the real finger."""
 
-    Parameters
-    ----------
-    figure : str
-        Number of the figure.
-    object : str
-        What was pushed, as the parameter `object` of `sim_plant` names it.
-    theta_desired, band : float
-        Desired angle, and how near to it counts as settled [rad].
-    settle_step : int
-        Step from which theta stays so near.
-    theta_range, phi_range : tuple of float, optional
-        Least and greatest angle from step `TRANSLATING_STEP` on [rad].
-    d_range : tuple of float, optional
-        Bounds on d that follow by (17) [m].
-    known_step : int, optional
-        Step from which these bounds hold: before, the paper knows nothing of d.
-    """
-
-    figure: str
-    object: str
-    theta_desired: float
-    band: float
-    settle_step: int
-    theta_range: Range | None = None
-    phi_range: Range | None = None
-    d_range: Range | None = None
-    known_step: int | None = None
+    figure: str  # its number
+    object: str  # what was pushed, as the parameter `object` of `sim_plant` names it
+    theta_desired: float  # [rad]
+    band: float  # how near to it counts as settled [rad]
+    settle_step: int  # step from which theta stays so near
+    theta_range: Range | None = None  # from step `TRANSLATING_STEP` on [rad]
+    phi_range: Range | None = None  # [rad]
+    d_range: Range | None = None  # bounds that follow by (17) [m]
+    known_step: int | None = None  # from which they hold: before, the paper knows nothing of d
 
 
 FIGURE_9 = PaperFigures(
@@ -98,19 +80,10 @@ PAPER = (FIGURE_9, FIGURE_10)
 
 
 def paper_figures(theta_desired: float, pushed: str | None) -> PaperFigures | None:
-    """Return what the paper publishes of the same experiment.
+    """Return what the paper publishes of the same experiment, None if it has no such one.
 
-    Parameters
-    ----------
-    theta_desired : float
-        Desired angle [rad].
-    pushed : str or None
-        `BLOCK`, `DISK` or `OTHER`; None if it is not known what is pushed.
-
-    Returns
-    -------
-    PaperFigures or None
-        The figures; None if the paper has no such experiment.
+    `theta_desired` is the desired angle [rad], `pushed` is `BLOCK`, `DISK`, `OTHER` or, if it is
+    not known, None.
     """
     for paper in PAPER:
         near = abs(theta_desired - paper.theta_desired) < math.radians(0.5)
@@ -120,19 +93,9 @@ def paper_figures(theta_desired: float, pushed: str | None) -> PaperFigures | No
 
 
 def object_with(corners: Iterable[tuple[float, float]], disk_radius: float) -> str:
-    """Return which object has an outline.
+    """Return which object has these corners from its centre of mass [m], or this radius [m].
 
-    Parameters
-    ----------
-    corners : iterable of tuple of float
-        Corners of a polygon from its centre of mass [m].
-    disk_radius : float
-        Radius of a round object, which has no corners [m]; 0 for a polygon.
-
-    Returns
-    -------
-    str
-        `BLOCK`, `DISK` or `OTHER`.
+    A radius of 0 stands for an object with corners.
     """
     if disk_radius > 0.0:
         return DISK if math.isclose(disk_radius, DISK_RADIUS) else OTHER

@@ -62,22 +62,9 @@ Statuses = dict[str, list[tuple[float, Label | None]]]
 
 
 def node_parameters(bag: BagReader) -> dict[str, dict[str, Any]] | None:
-    """Return the parameters that were recorded in a bag.
+    """Return the recorded parameters by node, None if there are none.
 
-    Parameters
-    ----------
-    bag : BagReader
-        The bag.
-
-    Returns
-    -------
-    dict or None
-        Node to values; None if none were recorded.
-
-    Raises
-    ------
-    ValueError
-        If they make no sense.
+    Raises a ValueError if they make no sense.
     """
     text = bag.notes.get(PARAMETERS_NOTE)
     if text is None:
@@ -94,23 +81,7 @@ def node_parameters(bag: BagReader) -> dict[str, dict[str, Any]] | None:
 
 
 def namespaces(bag: BagReader) -> list[str]:
-    """Find the namespaces of the package's topics in a bag.
-
-    Parameters
-    ----------
-    bag : BagReader
-        The bag.
-
-    Returns
-    -------
-    list of str
-        Such as '' or '/left'; first the one of which the bag has most topics.
-
-    Raises
-    ------
-    BagError
-        If there is none.
-    """
+    """Return the fingers' namespaces, '' or such as '/left', first the one with most topics."""
     found = fingers([topic for topic, count in bag.counts.items() if count], SHOWN)
     if not found:
         raise BagError(f'{bag.path}: nothing to report, expected messages on {", ".join(SHOWN)}')
@@ -118,25 +89,7 @@ def namespaces(bag: BagReader) -> list[str]:
 
 
 def topics_of(bag: BagReader, namespace: str) -> dict[str, str]:
-    """Find the topics that a report needs.
-
-    Parameters
-    ----------
-    bag : BagReader
-        The bag.
-    namespace : str
-        Namespace of the finger.
-
-    Returns
-    -------
-    dict of str to str
-        Relative names of the topics that the bag has, by full name.
-
-    Raises
-    ------
-    BagError
-        If one has another type than expected.
-    """
+    """Return the topics of a finger that a report shows: full name to relative name."""
     wanted = {f'{namespace}/{own}': own for own in SHOWN} | {DIAGNOSTICS: DIAGNOSTICS}
     there = {topic: own for topic, own in wanted.items() if topic in bag.topics}
     for topic, own in there.items():
@@ -151,29 +104,7 @@ def read_tables(
     topics: Mapping[str, str],
     progress: Callable[[int], None] = lambda count: None,
 ) -> tuple[Mapping[str, Table], Statuses]:
-    """Read topics into columns.
-
-    Parameters
-    ----------
-    bag : BagReader
-        The bag.
-    topics : mapping of str to str
-        The topics, as `topics_of` gives them.
-    progress : callable, optional
-        Told now and then how many messages have been read.
-
-    Returns
-    -------
-    tables : mapping of str to dict
-        The columns of the topics that have messages, by relative name.
-    statuses : dict
-        The diagnostics.
-
-    Raises
-    ------
-    BagError
-        If a message does not decode.
-    """
+    """Read topics, as `topics_of` returns them, into columns by relative name; and diagnostics."""
     columns: dict[str, Columns] = defaultdict(Columns)
     statuses: Statuses = defaultdict(list)
     for done, message in enumerate(bag.messages(topics), 1):

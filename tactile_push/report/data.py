@@ -13,97 +13,45 @@ NOTE, WARNING, ERROR = LEVELS = 'note', 'warning', 'error'
 
 @dataclass(frozen=True)
 class Series:
-    """A quantity as it was recorded.
+    """A quantity as it was recorded."""
 
-    Parameters
-    ----------
-    time : ndarray, shape (N,)
-        When [s], not decreasing.
-    values : ndarray, shape (N,)
-        What; NaN where there was no value.
-    """
-
-    time: npt.NDArray[np.float64]
-    values: npt.NDArray[np.float64]
+    time: npt.NDArray[np.float64]  # not decreasing [s]
+    values: npt.NDArray[np.float64]  # NaN where there was none
 
 
 @dataclass(frozen=True)
 class Episode:
-    """Something out of the ordinary, for as long as it lasted.
+    """Something out of the ordinary, for as long as it lasted."""
 
-    Parameters
-    ----------
-    lane : str
-        Whose matter it is: episodes of one lane are shown in one row.
-    start, end : float
-        When [s].
-    text : str
-        What.
-    level : str
-        One of `LEVELS`.
-    """
-
-    lane: str
-    start: float
-    end: float
+    lane: str  # episodes of one lane are shown in one row
+    start: float  # [s]
+    end: float  # [s]
     text: str
-    level: str
+    level: str  # one of `LEVELS`
 
 
 @dataclass(frozen=True)
 class Scene:
-    """What the view from above needs to know beside the run.
+    """What the view from above needs beside the run."""
 
-    Parameters
-    ----------
-    radius : float
-        Effective radius of the finger's disk [m].
-    outline : sequence of tuple of float, optional
-        Points of the object's outline relative to its centre of mass [m]; none if not known.
-    mu_c : float, optional
-        Friction between finger and object, 0 to infinity.
-    """
-
-    radius: float
+    radius: float  # effective radius of the finger's disk [m]
+    # Of the object about its centre of mass [m]; empty if it is not known
     outline: Sequence[tuple[float, float]] = ()
-    mu_c: float | None = None
+    mu_c: float | None = None  # friction between finger and object
 
 
 @dataclass(frozen=True)
 class Run:
-    """A run.
+    """A run."""
 
-    Parameters
-    ----------
-    name : str
-        Of the bag.
-    duration : float
-        From the first message to the last [s].
-    series : mapping of str to Series
-        Those that the bag has of `SERIES`.
-    states : sequence of str
-        What the controller can be doing: the values of the series 'state' are indices.
-    episodes : sequence of Episode
-        In the order of their start.
-    scene : Scene
-        For the view from above.
-    facts : sequence of str, optional
-        Of the bag as a whole.
-    outcome : sequence of tuple of str, optional
-        Figures of merit: what, its value, the paper's.
-    tables : mapping of str to sequence of tuple of str, optional
-        What else there is to know: topics, parameters; by title.
-    warnings : sequence of str, optional
-        What is amiss with the bag.
-    """
-
-    name: str
-    duration: float
-    series: Mapping[str, Series]
-    states: Sequence[str]
-    episodes: Sequence[Episode]
+    name: str  # of the bag
+    duration: float  # from the first message to the last [s]
+    series: Mapping[str, Series]  # those of the page's `SERIES` and `VIEWED` that the bag has
+    states: Sequence[str]  # what the controller can be doing, by the values of the series 'state'
+    episodes: Sequence[Episode]  # in the order of their start
     scene: Scene
-    facts: Sequence[str] = ()
-    outcome: Sequence[tuple[str, str, str]] = ()
+    facts: Sequence[str] = ()  # about the bag as a whole
+    outcome: Sequence[tuple[str, str, str]] = ()  # figures of merit: what, its value, the paper's
+    # Topics and parameters by title
     tables: Mapping[str, Sequence[tuple[str, ...]]] = field(default_factory=dict)
-    warnings: Sequence[str] = ()
+    warnings: Sequence[str] = ()  # what is wrong with the bag

@@ -21,23 +21,10 @@ def episodes(
     labels: Sequence[Label | None],
     longest: float,
 ) -> list[Episode]:
-    """Find how long each label lasted.
+    """Return how long each label lasted, in the order of time.
 
-    Parameters
-    ----------
-    lane : str
-        Whose matter it is.
-    time : array_like, shape (N,)
-        When each label was given [s], not decreasing.
-    labels : sequence of (str, str) or None
-        Level and text; None for nothing out of the ordinary.
-    longest : float
-        For how long a label counts if no other comes [s].
-
-    Returns
-    -------
-    list of Episode
-        In the order of time.
+    Label k was given at time k [s]; None is nothing out of the ordinary. A label counts for
+    `longest` seconds if no other follows.
     """
     times = np.asarray(time, dtype=float).tolist()
     starts = [i for i in range(len(labels)) if i == 0 or labels[i] != labels[i - 1]]
@@ -54,21 +41,9 @@ def episodes(
 
 
 def joined(found: Iterable[Episode], gap: float, end: float) -> list[Episode]:
-    """Join equal episodes between which no gap would be seen.
+    """Join equal episodes with a gap of no more than `gap` seconds between them.
 
-    Parameters
-    ----------
-    found : iterable of Episode
-        Episodes.
-    gap : float
-        The shortest gap that is seen [s].
-    end : float
-        End of the run, which none outlasts [s].
-
-    Returns
-    -------
-    list of Episode
-        In the order of their start.
+    No episode outlasts `end`, the end of the run [s]. They come in the order of their start.
     """
     last: dict[tuple[str, str, str], Episode] = {}
     done = []

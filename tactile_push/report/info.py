@@ -24,42 +24,18 @@ from tactile_push.report.merit import PushFigures, plant_object, push_figures
 
 @dataclass(frozen=True)
 class BagInfo:
-    """A bag.
-
-    Parameters
-    ----------
-    path : Path
-        Where it is.
-    files : list of FileInfo
-        Its files.
-    start_time : int
-        Time of the first message [ns].
-    duration : float
-        From the first to the last message [s].
-    messages : int
-        Number of messages.
-    topics : list of TopicInfo
-        Its topics, in the order of their names.
-    version : str or None
-        Version of this package that recorded it, if one did.
-    parameters : dict or None
-        Parameters of the nodes by name, if they were recorded.
-    pushes : dict of str to PushFigures
-        How well each finger pushed, by its namespace (``''`` or such as ``'/left'``).
-    remarks : list of str
-        What could not be used.
-    """
+    """A bag and how well its fingers pushed."""
 
     path: Path
     files: list[FileInfo]
-    start_time: int
-    duration: float
+    start_time: int  # of the first message [ns]
+    duration: float  # from the first to the last message [s]
     messages: int
-    topics: list[TopicInfo]
-    version: str | None
-    parameters: dict[str, dict[str, Any]] | None
-    pushes: dict[str, PushFigures]
-    remarks: list[str]
+    topics: list[TopicInfo]  # in the order of their names
+    version: str | None  # of this package, if it recorded the bag
+    parameters: dict[str, dict[str, Any]] | None  # of the nodes by name, if they were recorded
+    pushes: dict[str, PushFigures]  # by the fingers' namespaces, '' or such as '/left'
+    remarks: list[str]  # what could not be used
 
 
 def bag_info(
@@ -67,24 +43,8 @@ def bag_info(
 ) -> BagInfo:
     """Find out what is in a bag, reading it once.
 
-    Parameters
-    ----------
-    bag : BagReader
-        The bag.
-    band : float
-        How near to its desired value theta counts as settled [rad].
-    progress : callable, optional
-        Told now and then how many messages have been read.
-
-    Returns
-    -------
-    BagInfo
-        What is in it.
-
-    Raises
-    ------
-    BagError
-        If it cannot be read.
+    Theta counts as settled within `band` of its desired value [rad]. `progress` is told now and
+    then how many messages have been read.
     """
     remarks: list[str] = []
     try:

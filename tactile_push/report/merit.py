@@ -38,92 +38,41 @@ FIELDS = (*OF_STEPS, 'silence', 'state', 'stop_reason', 'ticks', 'ticks_lost')
 
 @dataclass(frozen=True)
 class Stop:
-    """A time for which the finger was held.
+    """A time for which the finger was held."""
 
-    Parameters
-    ----------
-    reason : str
-        Why: one of `STOP_REASONS`.
-    at : float
-        When it began [s], from the start of the bag.
-    duration : float
-        How long it took [s]; as far as is recorded, if it did not end.
-    ended : bool
-        Whether it ended in the bag.
-    """
-
-    reason: str
-    at: float
-    duration: float
-    ended: bool
+    reason: str  # one of `STOP_REASONS`
+    at: float  # from the start of the bag [s]
+    duration: float  # as far as is recorded, if it did not end [s]
+    ended: bool  # whether it ended in the bag
 
 
 @dataclass(frozen=True)
 class PushFigures:
-    """How well a finger pushed. What the bag does not tell is None.
+    """How well a finger pushed. What the bag does not tell is None."""
 
-    Parameters
-    ----------
-    states : int
-        States in the bag.
-    steps : int
-        Those in which the law acted: the steps of the paper, counted from 0.
-    missing : tuple of str
-        Fields that no state had: the bag is older than they are.
-    theta_desired : float or None
-        Desired angle at the last step [rad].
-    theta_desired_changes : int
-        How often it was changed between steps.
-    band : float
-        How near to it counts as settled [rad].
-    settle_step : int or None
-        Step from which theta stays so near.
-    ranges_from : int
-        Step from which the following ranges are taken: the paper's or, in a shorter run, the
-        beginning of its last third.
-    theta_range, phi_range : tuple of float or None
-        Least and greatest angle [rad].
-    l : float or None
-        Distance from the edge to the centre of mass [m].
-    d_range : tuple of float or None
-        Bounds on d by (17) [m].
-    v_x_range : tuple of float or None
-        Least and greatest command in all steps [m/s].
-    saturated_share, limited_share : float or None
-        Share of the steps in which phi was at a bound, and v_x or its change.
-    ticks, ticks_lost : int or None
-        Ticks of the controller, and control periods without one, over all activations.
-    silence : float or None
-        Longest time without a contact after the first one [s].
-    silence_at : float or None
-        When that was [s], from the start of the bag.
-    stops : list of Stop
-        When the finger was held.
-    paper : PaperFigures or None
-        What the paper publishes of the same experiment.
-    """
-
-    states: int
-    steps: int
-    missing: tuple[str, ...]
-    theta_desired: float | None
-    theta_desired_changes: int
-    band: float
-    settle_step: int | None
+    states: int  # in the bag
+    steps: int  # states in which the law acted: the steps of the paper, counted from 0
+    missing: tuple[str, ...]  # fields that no state had: the bag is older than they are
+    theta_desired: float | None  # at the last step [rad]
+    theta_desired_changes: int  # between steps
+    band: float  # how near to it counts as settled [rad]
+    settle_step: int | None  # step from which theta stays so near
+    # Step from which theta_range, phi_range and d_range are taken: the paper's or, in a short run,
+    # the beginning of its last third
     ranges_from: int
-    theta_range: Range | None
-    phi_range: Range | None
-    l: float | None
-    d_range: Range | None
-    v_x_range: Range | None
-    saturated_share: float | None
-    limited_share: float | None
-    ticks: int | None
-    ticks_lost: int | None
-    silence: float | None
-    silence_at: float | None
+    theta_range: Range | None  # [rad]
+    phi_range: Range | None  # [rad]
+    l: float | None  # distance from the edge to the centre of mass [m]
+    d_range: Range | None  # bounds on d by (17) [m]
+    v_x_range: Range | None  # in all steps [m/s]
+    saturated_share: float | None  # share of the steps in which phi was at a bound
+    limited_share: float | None  # share of the steps in which v_x or its change was
+    ticks: int | None  # over all activations
+    ticks_lost: int | None  # control periods without a tick
+    silence: float | None  # longest time without a contact after the first one [s]
+    silence_at: float | None  # from the start of the bag [s]
     stops: list[Stop]
-    paper: PaperFigures | None
+    paper: PaperFigures | None  # what the paper publishes of the same experiment
 
 
 def push_figures(
@@ -131,22 +80,10 @@ def push_figures(
 ) -> PushFigures:
     """Compute how well a finger pushed.
 
-    Parameters
-    ----------
-    states : dict of str to ndarray
-        The columns of `push_controller/state`: those of `FIELDS` that were recorded, 'time' [s]
-        from the start of the bag and, if it is another one, 'stamp' by the header [s].
-    band : float
-        How near to the desired angle counts as settled [rad].
-    l : float, optional
-        Distance from the edge to the centre of mass [m], if it is known.
-    pushed : str, optional
-        What is pushed, if it is known: `BLOCK`, `DISK` or `OTHER` of `tactile_push.paper`.
-
-    Returns
-    -------
-    PushFigures
-        The figures of merit.
+    `states` are the columns of `push_controller/state`; 'stamp', if it is another time than 'time',
+    is that of the header [s]. Theta counts as settled within `band` of its desired value [rad]. `l`
+    is the distance from the edge to the centre of mass [m], `pushed` is `BLOCK`, `DISK` or `OTHER`;
+    both are None if they are not known.
     """
     time = states.get('time', np.empty(0))
     column = {name: states.get(name, np.full(len(time), math.nan)) for name in FIELDS}
@@ -187,19 +124,9 @@ def push_figures(
 
 
 def plant_object(plant: Mapping[str, object]) -> tuple[str | None, float | None]:
-    """Return what the simulated plant pushes.
+    """Return what the plant with these parameters pushes, and its l [m].
 
-    Parameters
-    ----------
-    plant : mapping of str to object
-        The parameters of `sim_plant`, as far as they are known.
-
-    Returns
-    -------
-    pushed : str or None
-        `BLOCK`, `DISK` or `OTHER` of `tactile_push.paper`; None if it is not known.
-    l : float or None
-        Distance from its edge or tangent to its centre of mass [m], if it is known.
+    The object is `BLOCK` or `DISK` if it has the paper's sizes, otherwise `OTHER`.
     """
     if 'object' not in plant:
         return None, None
@@ -216,23 +143,11 @@ def plant_object(plant: Mapping[str, object]) -> tuple[str | None, float | None]
 def known_step(
     steps: Iterable[float], told: Iterable[float], widths: Iterable[float]
 ) -> int | None:
-    """Find the step from which on d is known.
+    """Return the step from which on d is known for good, None if it is not known at the end.
 
-    Parameters
-    ----------
-    steps : iterable of float
-        When the law acted: the stamps of the steps of the paper, which count from 0 [s].
-    told : iterable of float
-        The stamps of the control periods of which estimates tell [s].
-    widths : iterable of float
-        How wide the 95 % intervals of their d are [m].
-
-    Returns
-    -------
-    int or None
-        The first step of which, as of all after it of which estimates tell, the interval is not
-        wider than `KNOWN`; None if it is wider at the end. What is forgotten later was not known
-        for good.
+    `steps` are the times of the steps, `told` those of the estimates [s], and `widths` the widths
+    of the 95 % intervals of their d [m]. Steps after the last estimate do not count; a step without
+    an estimate is not known.
     """
     by_stamp = dict(zip(told, widths, strict=True))
     last = max(by_stamp, default=-math.inf)

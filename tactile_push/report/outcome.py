@@ -19,17 +19,7 @@ DEGREES, MILLIMETRES = 180.0 / math.pi, 1e3
 
 
 class Row(NamedTuple):
-    """A row of the table "this run | paper".
-
-    Parameters
-    ----------
-    what : str
-        The quantity, with its unit.
-    here : str
-        Its value in this run.
-    paper : str, optional
-        Its value in the paper.
-    """
+    """A row of the table "this run | paper": the quantity with its unit, and its values."""
 
     what: str
     here: str
@@ -39,19 +29,9 @@ class Row(NamedTuple):
 def outcome_of(ticks: Table, sensing: Table, plant: Mapping[str, object]) -> list[Row]:
     """Return the figures of merit of a run.
 
-    Parameters
-    ----------
-    ticks : dict
-        The columns of `push_controller/state`; empty if the bag does not have it.
-    sensing : dict
-        Those of `active_sensing/state`.
-    plant : mapping of str to object
-        The parameters of `sim_plant`, as far as they are known.
-
-    Returns
-    -------
-    list of Row
-        The rows, as `push_rows` returns them.
+    `ticks` and `sensing` are the columns of `push_controller/state` and `active_sensing/state`,
+    empty if they were not recorded; `plant` are the parameters of `sim_plant`, as far as they are
+    known.
     """
     if not ticks:
         return []
@@ -68,19 +48,9 @@ def outcome_of(ticks: Table, sensing: Table, plant: Mapping[str, object]) -> lis
 
 
 def push_rows(push: PushFigures, known: str | None = None) -> list[Row]:
-    """Return the figures of merit of a push beside the paper's.
+    """Return the figures of merit of a push beside the paper's; unknown ones are left out.
 
-    Parameters
-    ----------
-    push : PushFigures
-        The figures.
-    known : str, optional
-        From which step on d was known, in words, if active sensing was recorded.
-
-    Returns
-    -------
-    list of Row
-        The rows; what the bag does not tell is left out.
+    `known` says from which step on d was known, if active sensing was recorded.
     """
     paper = push.paper
     theta, phi, d = (paper.theta_range, paper.phi_range, paper.d_range) if paper else (None,) * 3
@@ -119,20 +89,7 @@ def push_rows(push: PushFigures, known: str | None = None) -> list[Row]:
 
 
 def known_row(known: str, paper: PaperFigures | None) -> Row:
-    """Return the row that says from which step on d was known.
-
-    Parameters
-    ----------
-    known : str
-        The step in words.
-    paper : PaperFigures or None
-        What the paper publishes of the same experiment.
-
-    Returns
-    -------
-    Row
-        The row.
-    """
+    """Return the row that says from which step on d was known."""
     of_paper = paper.known_step if paper is not None else None
     what = f'd known to {KNOWN * MILLIMETRES:g} mm from step'
     return Row(what, known, '' if of_paper is None else f'{of_paper}')
@@ -153,18 +110,8 @@ def outcome_table(
 ) -> RichTable:
     """Return the table "this run | paper" for a terminal.
 
-    Parameters
-    ----------
-    runs : mapping of str to tuple
-        For the heading of each run its rows and what the paper publishes of the same experiment;
-        without that the run has no column of the paper.
-    title : str, optional
-        Title of the table.
-
-    Returns
-    -------
-    rich.table.Table
-        The table.
+    `runs` has for the heading of each run its rows and what the paper publishes of the same
+    experiment; without that a run has no column of the paper.
     """
     table = RichTable(title=None if title is None else escape(title), title_justify='left')
     table.add_column('')

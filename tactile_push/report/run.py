@@ -68,7 +68,7 @@ STATUS_LASTS = 2.0  # what a node, which reports once a second, says of itself [
 
 
 def messages_shown(bag: BagReader) -> int:
-    """Count the messages that a report needs.
+    """Count the messages that `read_run` will read.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def messages_shown(bag: BagReader) -> int:
     Returns
     -------
     int
-        How many `read_run` will read.
+        How many there are.
 
     Raises
     ------

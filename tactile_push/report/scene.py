@@ -22,22 +22,10 @@ TRIED = 50  # contacts
 
 
 def scene_of(plant: Mapping[str, object] | None, tables: Mapping[str, Table]) -> Scene:
-    """Find out what was pushed by what.
+    """Return what was pushed by what, without an object if that is not known.
 
-    An object of which the bag says nothing but its pose is taken for the paper's block or disk if
-    the contacts lie on its outline.
-
-    Parameters
-    ----------
-    plant : mapping of str to object or None
-        The parameters of `sim_plant`; None if the bag does not have them.
-    tables : mapping of str to dict
-        The bag's topics, as `read_tables` gives them.
-
-    Returns
-    -------
-    Scene
-        Without an object if it is not known.
+    If the bag has no parameters of `sim_plant`, an object with a pose is taken for the paper's
+    block or disk if the contacts lie on its outline.
     """
     radius = _radius(tables)
     if plant is not None:
@@ -63,7 +51,7 @@ def _radius(tables: Mapping[str, Table]) -> float:
 
 
 def _fits(config: RigConfig, radius: float, tables: Mapping[str, Table]) -> bool:
-    """Tell whether the contacts lie on the outline."""
+    """Return whether the contacts lie on the outline."""
     truth, pose = tables.get(TRUE_STATE, {}), tables.get(TRUE_POSE, {})
     if 'theta' not in truth or not pose:
         return False
@@ -79,7 +67,7 @@ def _fits(config: RigConfig, radius: float, tables: Mapping[str, Table]) -> bool
 
 
 def _distances(points: npt.NDArray[np.float64], outline: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Give how far points are from a closed outline of straight edges [m]."""
+    """Return how far points are from a closed outline of straight edges [m]."""
     starts = np.asarray(outline)
     edges = np.roll(starts, -1, axis=0) - starts
     from_start = points[:, np.newaxis] - starts

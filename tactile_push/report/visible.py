@@ -12,24 +12,10 @@ MOST_POINTS = 6000  # of a line; as many ticks as the controller has in ten minu
 def visible(
     time: npt.NDArray[np.float64], values: npt.NDArray[np.float64], most: int = MOST_POINTS
 ) -> npt.NDArray[np.intp]:
-    """Choose the points that a line has to go through to look as if it went through all of them.
+    """Return the indices of at most `most` points through which a line looks as through all.
 
     Time is cut into equal parts. Of each, the first and the last point stay, the least and the
     greatest value, and one point without a value, which interrupts the line.
-
-    Parameters
-    ----------
-    time : ndarray, shape (N,)
-        When, not decreasing.
-    values : ndarray, shape (N,)
-        What; NaN where there is no value.
-    most : int, optional
-        How many points may stay.
-
-    Returns
-    -------
-    ndarray of int
-        Their indices, increasing.
     """
     count = len(time)
     if count <= most:
@@ -49,18 +35,7 @@ def visible(
 
 
 def frame_times(duration: float) -> npt.NDArray[np.float64]:
-    """Give the moments that the view from above shows.
-
-    Parameters
-    ----------
-    duration : float
-        Of the run [s].
-
-    Returns
-    -------
-    ndarray
-        Equally spaced from 0 to `duration` [s].
-    """
+    """Return the moments that the view from above shows [s], equally spaced."""
     count = int(min(max(np.ceil(duration / FRAME), 1), MOST_POINTS))
     return np.linspace(0.0, duration, count + 1)
 
@@ -71,24 +46,7 @@ def held(
     moments: npt.NDArray[np.float64],
     longest: float,
 ) -> npt.NDArray[np.float64]:
-    """Give the value that was the last one at each of some moments.
-
-    Parameters
-    ----------
-    time : ndarray, shape (N,)
-        When there were values [s], not decreasing.
-    values : ndarray, shape (N,)
-        The values.
-    moments : ndarray, shape (K,)
-        Moments [s].
-    longest : float
-        For how long a value counts [s].
-
-    Returns
-    -------
-    ndarray, shape (K,)
-        The values; NaN where there was none.
-    """
+    """Return the last value at each moment; NaN if none is younger than `longest` [s]."""
     if not len(time):
         return np.full(len(moments), np.nan)
     index = np.searchsorted(time, moments, side='right') - 1

@@ -11,7 +11,8 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
-from tactile_push.report import Episode, Run, Scene, Series, report_html
+from tactile_push.report import report_html
+from tactile_push.report.data import Episode, Run, Scene, Series
 
 HOSTILE = '</script><script>alert(1)</script><img src=x onerror=alert(2)>&amp;\u2028"\''
 TIME = np.arange(0.0, 20.0, 0.1)
