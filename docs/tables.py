@@ -89,17 +89,14 @@ def topics_page() -> str:
 
 def options_table(command: argparse.ArgumentParser) -> str:
     """Return a command's arguments and options."""
-    rows = []
+    rows, formatter = [], command._get_formatter()
     for action in command._actions[1:]:  # the first is --help
-        value = command._get_formatter()._format_args(action, action.dest.upper())
+        value = formatter._format_args(action, action.dest.upper())
         if not action.metavar:
             value = '|'.join(action.choices or ())
         names = ', '.join(action.option_strings)
         words = f'{names} {value}'.strip() if action.nargs != 0 else names
-        meaning = action.help or ''
-        says_default = isinstance(command._get_formatter(), argparse.ArgumentDefaultsHelpFormatter)
-        if says_default and action.default not in (argparse.SUPPRESS, False):
-            meaning += f' (default: {action.default})'
+        meaning = formatter._expand_help(action).removesuffix(' (default: False)')
         rows.append(cell.replace('|', '\\|') for cell in (f'`{words}`', meaning))
     return table(('option', 'meaning'), rows)
 
