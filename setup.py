@@ -77,5 +77,7 @@ setup(
             f'{NAME} = {NAME}.cli:main',
             *(f'{node} = {NAME}.nodes.{node}:main' for node in NODES),
         ],
+        # By the module's own name: loaded by name as well, it is the same plugin and not a second.
+        'pytest11': [f'{NAME}.testing.plugin = {NAME}.testing.plugin'],
     },
 )

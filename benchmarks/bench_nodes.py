@@ -106,10 +106,10 @@ def latencies(folder: Path) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray
             )
             chain.start_on_device(control_rate=LATENCY_CONTROL_RATE)
         with feed([chain.send for chain in both], LATENCY_RATE, jitter=0.5):
-            probe.spin(lambda: all(map(all, heard.values())), 'both chains to work')
-            probe.spin_for(WARM_UP)
+            probe.wait_for(lambda: all(map(all, heard.values())), 'both chains to work')
+            probe.spin(WARM_UP)
             first = len(both[0].device.sent)
-            probe.spin_for(LATENCY_READINGS / LATENCY_RATE)
+            probe.spin(LATENCY_READINGS / LATENCY_RATE)
     ours, bare = (delays_of(chain, first, *heard[chain]) for chain in both)
     return ours, bare
 
@@ -160,12 +160,14 @@ def flood(folder: Path) -> tuple[dict[str, list[int | None]], int, int, dict[str
         chain.start_on_device()
         device = chain.device
         with feed([chain.send], FLOOD_RATE):
-            probe.spin(lambda: all(heard.values()), 'the chain to work')
-            probe.spin_for(WARM_UP)
+            probe.wait_for(lambda: all(heard.values()), 'the chain to work')
+            probe.spin(WARM_UP)
             first = len(device.sent)
-            probe.spin(lambda: len(device.sent) > first + FLOOD_READINGS, 'all to be sent', 300.0)
+            probe.wait_for(
+                lambda: len(device.sent) > first + FLOOD_READINGS, 'all to be sent', 300.0
+            )
         last = len(device.sent) - 1
-        probe.spin_for(2.0)
+        probe.spin(2.0)
     numbers = {
         topic: [chain.number(deserialize_message(h.data, types[topic])) for h in messages]
         for topic, messages in heard.items()
@@ -188,13 +190,13 @@ def loop(folder: Path) -> tuple[dict, dict[str, tuple[float, float]], tuple[set,
             chain.start('contact_geometry')
             # Straight on, so that the finger stays within its reach for as long as it takes.
             chain.start('push_controller', **({} if chain.bare else {'theta_desired': 0.0}))
-        probe.spin(lambda: all(commands.values()), 'both loops to work')
-        probe.spin_for(WARM_UP)
+        probe.wait_for(lambda: all(commands.values()), 'both loops to work')
+        probe.spin(WARM_UP)
         begun = [len(heard) for heard in commands.values()]
         before = {
             (chain, node): processor_time(chain.pid(node)) for chain in both for node in NODES
         }
-        probe.spin_for(LOOP_TIME)
+        probe.spin(LOOP_TIME)
         used = {key: processor_time(key[0].pid(key[1])) - then for key, then in before.items()}
         interfaces = tuple(chain.interfaces() for chain in both)
     ticks = {}

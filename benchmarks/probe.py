@@ -3,10 +3,8 @@
 """The one process that feeds chains of nodes with numbered readings and hears their last hops."""
 
 import math
-import os
 import random
 import socket
-import subprocess
 import sys
 import threading
 import time
@@ -16,14 +14,10 @@ from itertools import cycle
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import rclpy
 from geometry_msgs.msg import PoseStamped
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 from sensor_msgs.msg import JointState
 
-from tactile_push.testing.processes import NodeProcesses, loopback
+from tactile_push.testing import NodeProcesses, Observer
 
 PATIENCE = 60.0  # [s]; a bound on hanging, not an expectation
 BARE_NODES = Path(__file__).with_name('bare_nodes.py')
@@ -77,19 +71,11 @@ class Device:
         self._listener.close()
 
 
-class Probe:
-    """A node that keeps what it hears as bytes, to be read when nothing is measured any more."""
-
-    def __init__(self, domain: int) -> None:
-        os.environ.update(loopback())
-        self._context = Context()
-        rclpy.init(context=self._context, domain_id=domain)
-        self.node = Node('probe', context=self._context, start_parameter_services=False)
-        self._executor = SingleThreadedExecutor(context=self._context)
-        self._executor.add_node(self.node)
+class Probe(Observer):
+    """An observer that keeps messages as bytes, to be read once nothing is measured any more."""
 
     def hear(self, message_type: type, topic: str) -> list[Heard]:
-        """Subscribe and give the list that grows with the messages."""
+        """Subscribe and return the list that grows with the messages."""
         heard: list[Heard] = []
 
         def take(data: bytes) -> None:
@@ -97,26 +83,6 @@ class Probe:
 
         self.node.create_subscription(message_type, topic, take, 1000, raw=True)
         return heard
-
-    def spin(self, until: Callable[[], Any], what: str, patience: float = PATIENCE) -> None:
-        """Hear until a condition holds, and complain if it never does."""
-        deadline = time.monotonic() + patience
-        while not until():
-            if time.monotonic() > deadline:
-                raise TimeoutError(f'waited {patience} s in vain: {what}')
-            self._executor.spin_once(timeout_sec=0.1)
-
-    def spin_for(self, duration: float) -> None:
-        """Hear for a while [s]."""
-        end = time.monotonic() + duration
-        while (left := end - time.monotonic()) > 0.0:
-            self._executor.spin_once(timeout_sec=min(left, 0.1))
-
-    def close(self) -> None:
-        """Leave the domain."""
-        self._executor.shutdown()
-        self.node.destroy_node()
-        rclpy.shutdown(context=self._context)
 
 
 class Chain:
@@ -137,15 +103,7 @@ class Chain:
             command = [sys.executable, str(BARE_NODES), node, '--ros-args']
             for key, value in {'__ns': f'/{self.namespace}', **parameters}.items():
                 command += ['-r' if key == '__ns' else '-p', f'{key}:={value}']
-            with self._nodes.log(f'bare_{node}').open('ab') as log:
-                self._nodes.running[f'bare_{node}'] = subprocess.Popen(
-                    command,
-                    env=self._nodes.environment,
-                    stdin=subprocess.DEVNULL,
-                    stdout=log,
-                    stderr=subprocess.STDOUT,
-                    start_new_session=True,
-                )
+            self._nodes.run(f'bare_{node}', command)
             return
         if 'device' in parameters:
             parameters['device'] = f'socket://{parameters["device"]}'
@@ -214,12 +172,8 @@ class Chain:
 @contextmanager
 def chains(folder: Path) -> Iterator[tuple[Probe, Chain, Chain]]:
     """Give a probe, the package's chain and the bare one; stop everything in the end."""
-    with NodeProcesses(folder) as nodes:
-        probe = Probe(nodes.domain)
-        try:
-            yield probe, Chain(nodes, probe, bare=False), Chain(nodes, probe, bare=True)
-        finally:
-            probe.close()
+    with NodeProcesses(folder) as nodes, Probe(nodes.domain, 'probe') as probe:
+        yield probe, Chain(nodes, probe, bare=False), Chain(nodes, probe, bare=True)
 
 
 @contextmanager

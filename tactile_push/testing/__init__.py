@@ -1,3 +1,25 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""The rig as processes, for tests of nodes."""
+"""Tests against the simulated plant: a pytest plugin, and the classes behind its fixtures.
+
+The plugin `tactile_push.testing.plugin` has the fixtures `tactile_nodes`, `tactile_observer` and
+`tactile_rig`. pytest loads it wherever this package is installed.
+"""
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tactile_push.testing.observer import Heard, Observer, field, seconds
+    from tactile_push.testing.processes import NodeProcesses
+    from tactile_push.testing.rig import Rig
+
+__all__ = ['Heard', 'NodeProcesses', 'Observer', 'Rig', 'field', 'seconds']
+MODULES = {'NodeProcesses': 'processes', 'Rig': 'rig'}
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is asked for: pytest loads the plugin for every test."""
+    if name not in __all__:
+        raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
+    return getattr(importlib.import_module(f'{__name__}.{MODULES.get(name, "observer")}'), name)

@@ -98,14 +98,36 @@ class NodeProcesses:
             command += ['--params-file', str(config)]
         for key, value in (parameters or {}).items():
             command += ['-p', f'{key}:={yaml_value(value)}']
-        name = name or node
+        return self.run(name or node, command)
+
+    def run(self, name: str, command: list[str]) -> subprocess.Popen[bytes]:
+        """Start any program in the nodes' domain.
+
+        Parameters
+        ----------
+        name : str
+            What the process is called here.
+        command : list of str
+            The program and its arguments.
+
+        Returns
+        -------
+        subprocess.Popen
+            The process, in a session of its own: Ctrl-C at the terminal is for the parent.
+        """
         with self.log(name).open('ab') as log:
-            process = self._spawn(command, log)
-        self.running[name] = process
-        return process
+            self.running[name] = subprocess.Popen(
+                command,
+                env=self.environment,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
+        return self.running[name]
 
     def log(self, name: str) -> Path:
-        """Give the file that holds what a process has said."""
+        """Return the file that holds what a process has said."""
         return self._folder / f'{name}.log'
 
     def stop(self) -> None:
@@ -122,20 +144,9 @@ class NodeProcesses:
                 process.wait()
         self._lock.close()
 
-    def _spawn(self, command: list[str], log: IO[bytes]) -> subprocess.Popen[bytes]:
-        # A session of their own: Ctrl-C at the terminal is for the parent, which stops them.
-        return subprocess.Popen(
-            command,
-            env=self.environment,
-            stdin=subprocess.DEVNULL,
-            stdout=log,
-            stderr=subprocess.STDOUT,
-            start_new_session=True,
-        )
-
 
 def loopback() -> dict[str, str]:
-    """Give the environment in which ROS nodes talk on this machine alone.
+    """Return the environment in which ROS nodes talk on this machine alone.
 
     Fast DDS's shared memory, which the discovery range LOCALHOST always brings, is not used:
     whoever joins a domain can hold up everybody's publishing there for a third of a second.
@@ -154,18 +165,7 @@ def loopback() -> dict[str, str]:
 
 
 def yaml_value(value: Any) -> str:
-    """Write a parameter's value as the command line takes it.
-
-    Parameters
-    ----------
-    value : bool, int, float, str or list of str
-        The value.
-
-    Returns
-    -------
-    str
-        YAML on one line.
-    """
+    """Return a bool, number, text or list of texts as the command line takes it, in YAML."""
     if isinstance(value, bool):
         return 'true' if value else 'false'
     if isinstance(value, float):
@@ -177,20 +177,7 @@ def yaml_value(value: Any) -> str:
 
 
 def claim_domain() -> tuple[int, IO[bytes]]:
-    """Find a ROS domain that nobody on this machine uses through this function.
-
-    Returns
-    -------
-    domain : int
-        Its id.
-    lock : file
-        Keeps it so until it is closed.
-
-    Raises
-    ------
-    RuntimeError
-        If there is none.
-    """
+    """Return a ROS domain that nobody on this machine gets here too before its lock is closed."""
     for domain in random.sample(DOMAINS, len(DOMAINS)):
         path = Path(tempfile.gettempdir()) / f'tactile_push_domain_{domain}.{os.getuid()}.lock'
         lock = path.open('wb')

@@ -8,7 +8,9 @@ import time
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from .messages import field, seconds, stamp_of
+from tactile_push.testing import field, seconds
+
+from .messages import stamp_of
 from .proxy import Sent
 
 if TYPE_CHECKING:
@@ -113,20 +115,20 @@ class Watch:
         finger = self._finger
         offset = time.time() - time.monotonic()
         velocities = [
-            h.message.twist.linear.x
+            h.twist.linear.x
             for h in finger.commands[self._commands :]
-            if stamp_of(h.message) not in finger.foreign
+            if stamp_of(h) not in finger.foreign
         ]
         self._commands = len(finger.commands)
         found = wrong_commands(velocities, self._v_x)
         self._v_x = velocities[-1] if velocities else self._v_x
-        tactile = [h.message for h in finger.tactile[self._readings :]]
+        tactile = finger.tactile[self._readings :]
         self._readings = len(finger.tactile)
         self._stamps.update(map(stamp_of, tactile))
         found += wrong_readings(
             [
                 (
-                    seconds(m.header.stamp) - offset,
+                    seconds(m) - offset,
                     int(m.effort[2]),
                     field(m, 'azimuth'),
                     field(m, 'elevation'),
@@ -138,7 +140,7 @@ class Watch:
             self._numbers,
             self._oldest,
         )
-        stamps = [stamp_of(h.message) for h in finger.contacts[self._contacts :]]
+        stamps = [stamp_of(m) for m in finger.contacts[self._contacts :]]
         found += wrong_contacts(
             [stamp for stamp in stamps if stamp not in finger.foreign],
             self._stamps,

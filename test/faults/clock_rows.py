@@ -6,48 +6,48 @@ import math
 
 from tactile_push.control import CLOCK_JUMPED, Limits, PushControl, PushLaw
 
-from .promise import NO_RIG, ONE_PERIOD, Setup, fault
-from .rig import Rig, expect
+from .bench import Bench, expect
+from .promise import NO_BENCH, ONE_PERIOD, Setup, fault
 
 OWN_CLOCK = Setup(own_clock=True)
 PERIOD = 0.1  # of the control [s]
 
 
-def _jumps(rig: Rig, seconds: float, *reasons: str) -> None:
-    finger = rig.finger
-    assert rig.clock is not None
-    rig.stopped(rig.clock.jump(seconds))
+def _jumps(bench: Bench, seconds: float, *reasons: str) -> None:
+    finger = bench.finger
+    assert bench.clock is not None
+    bench.stopped(bench.clock.jump(seconds))
     finger.expect_reason(*reasons)
     finger.expect_rest(finger.reason())
     finger.resume()
 
 
 @fault('clock jumps 10 s ahead', ONE_PERIOD, setup=OWN_CLOCK)
-def clock_ahead(rig: Rig) -> None:
+def clock_ahead(bench: Bench) -> None:
     """Clock jumped, or ticks lost; resumes by service."""
-    _jumps(rig, 10.0, 'clock jumped', 'ticks lost')
+    _jumps(bench, 10.0, 'clock jumped', 'ticks lost')
 
 
 @fault('clock jumps 10 s back', ONE_PERIOD, setup=OWN_CLOCK)
-def clock_back(rig: Rig) -> None:
+def clock_back(bench: Bench) -> None:
     """Clock jumped; resumes by service."""
-    _jumps(rig, -10.0, 'clock jumped')
+    _jumps(bench, -10.0, 'clock jumped')
 
 
 @fault('clock jumps 0.5 s back', ONE_PERIOD, setup=OWN_CLOCK)
-def clock_back_a_little(rig: Rig) -> None:
+def clock_back_a_little(bench: Bench) -> None:
     """Clock jumped; resumes by service."""
-    _jumps(rig, -0.5, 'clock jumped')
+    _jumps(bench, -0.5, 'clock jumped')
 
 
 @fault('clock jumps 864 s back', ONE_PERIOD, setup=OWN_CLOCK)
-def clock_back_a_lot(rig: Rig) -> None:
+def clock_back_a_lot(bench: Bench) -> None:
     """Clock jumped; resumes by service."""
-    _jumps(rig, -864.0, 'clock jumped')
+    _jumps(bench, -864.0, 'clock jumped')
 
 
-@fault('system clock set (logic alone)', setup=NO_RIG)
-def system_clock_set(rig: Rig) -> None:
+@fault('system clock set (logic alone)', setup=NO_BENCH)
+def system_clock_set(bench: Bench) -> None:
     """Clock jumped at the next tick, both ways; resumes when told to."""
     for jump in (-3600.0, -1.0, 1.0, 3600.0):
         control = PushControl(PushLaw(0.05, 5.0, 0.0), 0.005, PERIOD, Limits())

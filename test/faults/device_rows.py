@@ -13,13 +13,13 @@ from tactile_push.devices import Sentence
 from tactile_push.devices.sentence import checksum
 from tactile_push.nodes.ros.diagnostics import ERROR
 from tactile_push.tactile import NO_CONTACT, Reading
+from tactile_push.testing import field
 
+from .bench import Bench, expect
 from .finger import Finger
-from .messages import field, yaw
-from .observer import Heard
+from .messages import yaw
 from .promise import ONE_PERIOD, SILENT, Setup, fault
 from .proxy import Corruption
-from .rig import Rig, expect
 
 START = -0.06  # of the finger, in finger_base [m]
 ROOM = 0.003  # to both sides [m]
@@ -35,93 +35,93 @@ def misread(azimuth_deg: float, elevation_deg: float) -> Reading:
     return Reading(math.radians(azimuth_deg), math.radians(elevation_deg))
 
 
-def _stops_and_goes_on(rig: Rig) -> None:
+def _stops_and_goes_on(bench: Bench) -> None:
     """Wait for the stop, mend the device, and wait for the finger to move again."""
-    finger = rig.finger
-    rig.stopped(time.monotonic())
+    finger = bench.finger
+    bench.stopped(time.monotonic())
     finger.expect_reason('contact silent')
     finger.proxy.mend()
     finger.wait_until_moving(10.0)
 
 
 @fault('device unplugged', SILENT)
-def device_unplugged(rig: Rig) -> None:
+def device_unplugged(bench: Bench) -> None:
     """Contact silent; the driver says so, finds the device again; pushes on."""
-    rig.finger.proxy.unplug()
+    bench.finger.proxy.unplug()
     at = time.monotonic()
-    rig.stopped(at)
-    rig.finger.expect_reason('contact silent')
-    rig.finger.expect_level('sensor_driver', ERROR)
-    rig.finger.proxy.mend()
-    rig.finger.wait_until_moving(10.0)
+    bench.stopped(at)
+    bench.finger.expect_reason('contact silent')
+    bench.finger.expect_level('sensor_driver', ERROR)
+    bench.finger.proxy.mend()
+    bench.finger.wait_until_moving(10.0)
 
 
 @fault('device silent', SILENT)
-def device_silent(rig: Rig) -> None:
+def device_silent(bench: Bench) -> None:
     """Contact silent; pushes on."""
-    rig.finger.proxy.spoil = lambda data: b''
-    _stops_and_goes_on(rig)
+    bench.finger.proxy.spoil = lambda data: b''
+    _stops_and_goes_on(bench)
 
 
 @fault('sentences cut off', SILENT)
-def sentences_cut(rig: Rig) -> None:
+def sentences_cut(bench: Bench) -> None:
     """Contact silent; pushes on."""
-    rig.finger.proxy.spoil = lambda data: data[: len(data) // 2]
-    _stops_and_goes_on(rig)
+    bench.finger.proxy.spoil = lambda data: data[: len(data) // 2]
+    _stops_and_goes_on(bench)
 
 
 @fault('1 % of bytes corrupted')
-def corrupted_little(rig: Rig) -> None:
+def corrupted_little(bench: Bench) -> None:
     """Pushes on; no wrong reading is published."""
-    finger = rig.finger
+    finger = bench.finger
     finger.proxy.spoil = Corruption(0.01)
     at = time.monotonic()
-    rig.observer.spin(SPOILED)
-    heard = len(finger.after(finger.contacts, at))
+    bench.observer.spin(SPOILED)
+    heard = len(finger.contacts.since(at))
     finger.proxy.mend()
     expect(heard > 0.5 * SPOILED * 50.0, f'only {heard} contacts in {SPOILED:g} s')
     finger.wait_until_moving()
 
 
 @fault('10 % of bytes corrupted')
-def corrupted(rig: Rig) -> None:
+def corrupted(bench: Bench) -> None:
     """Goes on with what gets through, or stops; no wrong reading is published; pushes on."""
-    finger = rig.finger
+    finger = bench.finger
     finger.proxy.spoil = Corruption(0.1)
-    rig.observer.spin(SPOILED)
+    bench.observer.spin(SPOILED)
     finger.rest_or_push()
     finger.proxy.mend()
     finger.wait_until_moving()
 
 
 @fault('50 % of bytes corrupted', SILENT)
-def corrupted_much(rig: Rig) -> None:
+def corrupted_much(bench: Bench) -> None:
     """Contact silent; no wrong reading is published; pushes on."""
-    rig.finger.proxy.spoil = Corruption(0.5)
-    _stops_and_goes_on(rig)
+    bench.finger.proxy.spoil = Corruption(0.5)
+    _stops_and_goes_on(bench)
 
 
 @fault('line without line ends', SILENT)
-def line_noise(rig: Rig) -> None:
+def line_noise(bench: Bench) -> None:
     """Contact silent; pushes on."""
-    rig.finger.proxy.spoil = lambda data: b'U' * 2000
-    _stops_and_goes_on(rig)
+    bench.finger.proxy.spoil = lambda data: b'U' * 2000
+    _stops_and_goes_on(bench)
 
 
 @fault('wrong baud rate', SILENT)
-def wrong_baud_rate(rig: Rig) -> None:
+def wrong_baud_rate(bench: Bench) -> None:
     """Contact silent; the driver says that no sentence is valid; pushes on."""
     noise = random.Random(1)
-    rig.finger.proxy.spoil = lambda data: noise.randbytes(len(data))
+    bench.finger.proxy.spoil = lambda data: noise.randbytes(len(data))
     at = time.monotonic()
-    rig.stopped(at)
-    rig.finger.expect_level('sensor_driver', ERROR)
-    rig.finger.proxy.mend()
-    rig.finger.wait_until_moving(10.0)
+    bench.stopped(at)
+    bench.finger.expect_level('sensor_driver', ERROR)
+    bench.finger.proxy.mend()
+    bench.finger.wait_until_moving(10.0)
 
 
 @fault('sensor stuck, same number', SILENT)
-def sensor_stuck(rig: Rig) -> None:
+def sensor_stuck(bench: Bench) -> None:
     """Contact silent: a sentence counts once; pushes on."""
     first: list[bytes] = []
 
@@ -129,19 +129,19 @@ def sensor_stuck(rig: Rig) -> None:
         first.append(data)
         return first[0]
 
-    rig.finger.proxy.spoil = repeat
-    _stops_and_goes_on(rig)
+    bench.finger.proxy.spoil = repeat
+    _stops_and_goes_on(bench)
 
 
 @fault('no contact', SILENT)
-def no_contact(rig: Rig) -> None:
+def no_contact(bench: Bench) -> None:
     """Contact silent; pushes on."""
-    rig.finger.proxy.alter = lambda sentence: replace(sentence, reading=NO_CONTACT)
-    _stops_and_goes_on(rig)
+    bench.finger.proxy.alter = lambda sentence: replace(sentence, reading=NO_CONTACT)
+    _stops_and_goes_on(bench)
 
 
 @fault('readings not a number', SILENT)
-def readings_not_a_number(rig: Rig) -> None:
+def readings_not_a_number(bench: Bench) -> None:
     """Contact silent; pushes on."""
 
     def write_nan(data: bytes) -> bytes:
@@ -149,28 +149,28 @@ def readings_not_a_number(rig: Rig) -> None:
         body = b','.join([*fields[:3], b'nan', b'inf', b''])
         return b'$%s*%02X\r\n' % (body, checksum(body))
 
-    rig.finger.proxy.spoil = write_nan
-    _stops_and_goes_on(rig)
+    bench.finger.proxy.spoil = write_nan
+    _stops_and_goes_on(bench)
 
 
 @fault('readings off the hemisphere', SILENT)
-def readings_off_the_hemisphere(rig: Rig) -> None:
+def readings_off_the_hemisphere(bench: Bench) -> None:
     """Contact silent; pushes on."""
-    rig.finger.proxy.alter = lambda s: replace(s, reading=misread(0.0, 200.0))
-    _stops_and_goes_on(rig)
+    bench.finger.proxy.alter = lambda s: replace(s, reading=misread(0.0, 200.0))
+    _stops_and_goes_on(bench)
 
 
 @fault('readings out of plane', SILENT)
-def readings_out_of_plane(rig: Rig) -> None:
+def readings_out_of_plane(bench: Bench) -> None:
     """Contact silent; pushes on."""
-    rig.finger.proxy.alter = lambda s: replace(s, reading=misread(90.0, 45.0))
-    _stops_and_goes_on(rig)
+    bench.finger.proxy.alter = lambda s: replace(s, reading=misread(90.0, 45.0))
+    _stops_and_goes_on(bench)
 
 
 @fault('every tenth reading jumps')
-def readings_jump(rig: Rig) -> None:
+def readings_jump(bench: Bench) -> None:
     """Pushes on; no isolated jump becomes a contact."""
-    finger, draw = rig.finger, random.Random(1)
+    finger, draw = bench.finger, random.Random(1)
 
     def jump(sentence: Sentence) -> Sentence:
         if sentence.sequence % 10:
@@ -179,9 +179,9 @@ def readings_jump(rig: Rig) -> None:
 
     finger.proxy.alter = jump
     at = time.monotonic()
-    rig.observer.spin(SPOILED)
+    bench.observer.spin(SPOILED)
     finger.proxy.mend()
-    far = [m for m in finger.after(finger.contacts, at) if abs(yaw(m)) > FAR]
+    far = [m for m in finger.contacts.since(at) if abs(yaw(m)) > FAR]
     expect(not far, f'{len(far)} jumps became contacts')
     expect(finger.state() == 'pushing', f'it is {finger.state()}')
     finger.wait_until_moving()
@@ -189,32 +189,32 @@ def readings_jump(rig: Rig) -> None:
 
 def _turn_inward(finger: Finger) -> None:
     """Ask for an angle for which the law moves the finger inward, and wait for that."""
-    last = finger.truth[-1].message
+    last = finger.truth[-1]
     aside = math.copysign(TURN, field(last, 'finger_x'))
     finger.ask_for(field(last, 'theta') - aside)
     finger.wait_until_moving(10.0)
 
 
-def _beyond(truth: Heard[JointState]) -> bool:
-    return abs(field(truth.message, 'finger_x')) >= ROOM
+def _beyond(truth: JointState) -> bool:
+    return abs(field(truth, 'finger_x')) >= ROOM
 
 
 @fault('workspace limit', ONE_PERIOD, setup=NARROW)
-def workspace_limit(rig: Rig) -> None:
+def workspace_limit(bench: Bench) -> None:
     """Stops at the limit; moves inward on its own."""
-    finger = rig.finger
-    rig.observer.wait_for(
+    finger = bench.finger
+    bench.observer.wait_for(
         lambda: _beyond(finger.truth[-1]), 'the finger to come to its limit', 40.0
     )
-    rig.stopped(next(heard.at for heard in finger.truth[-50:] if _beyond(heard)))
+    bench.stopped(next(at for at, truth in finger.truth.timed(-50) if _beyond(truth)))
     finger.expect_reason('workspace limit')
     _turn_inward(finger)
 
 
 @fault('sensor stuck, numbers go on', setup=NARROW)
-def value_stuck(rig: Rig) -> None:
+def value_stuck(bench: Bench) -> None:
     """Cannot be told from a still object: stops at the workspace limit at the latest."""
-    finger = rig.finger
+    finger = bench.finger
     first: list[Reading] = []
 
     def freeze(sentence: Sentence) -> Sentence:
@@ -224,6 +224,6 @@ def value_stuck(rig: Rig) -> None:
     finger.proxy.alter = freeze
     finger.stopped(time.monotonic(), 40.0)
     finger.proxy.mend()
-    x = field(finger.truth[-1].message, 'finger_x')
+    x = field(finger.truth[-1], 'finger_x')
     expect(abs(x) < ROOM + BRAKING, f'the finger went {1000.0 * x:.1f} mm')
     _turn_inward(finger)

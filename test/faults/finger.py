@@ -5,26 +5,22 @@
 import math
 import signal
 import time
-from pathlib import Path
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import PoseStamped, TwistStamped
 from lifecycle_msgs.msg import State
 from rcl_interfaces.msg import ParameterType, ParameterValue
-from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from tactile_push.control import PUSHING, STATES, STOP_REASONS
-from tactile_push.testing.processes import NodeProcesses
+from tactile_push.control import PUSHING, STOP_REASONS
+from tactile_push.testing import NodeProcesses, Rig, field
 
-from .messages import field, stamp_of
-from .observer import Heard, Observer
+from .messages import stamp_of
+from .observer import FaultObserver
 from .promise import BrokenPromiseError, Setup
 from .proxy import DeviceProxy, free_port
 from .relay import JointRelay
 
-CONFIG = Path(__file__).resolve().parents[2] / 'config' / 'block.yaml'
 CHAIN = ('sim_plant', 'sensor_driver', 'contact_geometry', 'push_controller')
 DESIRED = math.radians(10.0)  # to both sides in turn, so that the finger stays where it can
 MOVING = 5e-5  # [m/s]
@@ -33,8 +29,8 @@ MOST_D = 0.01  # [m]
 HOLD = 0.3  # for so long a stopped finger has to stay stopped before it counts [s]
 
 
-class Finger:
-    """The nodes of one finger and what is heard of them.
+class Finger(Rig):
+    """The rig of one finger, whose device and joint states the tool can spoil.
 
     Parameters
     ----------
@@ -44,7 +40,7 @@ class Finger:
         What is special about the rig.
     nodes : NodeProcesses
         Starts them.
-    observer : Observer
+    observer : FaultObserver
         Hears them.
 
     Attributes
@@ -55,57 +51,39 @@ class Finger:
         What the joint states pass through, if the setup asks for it.
     foreign : set of (int, int)
         Stamps of the messages that the tool itself has published.
-    commands, truth, states, contacts, tactile, diagnostics : list of Heard
+    diagnostics : Heard
         What was heard so far.
     """
 
+    observer: FaultObserver
+
     def __init__(
-        self, namespace: str, setup: Setup, nodes: NodeProcesses, observer: Observer
+        self, namespace: str, setup: Setup, nodes: NodeProcesses, observer: FaultObserver
     ) -> None:
-        self.namespace = namespace
-        self.nodes = nodes
-        self.observer = observer
+        port = free_port()
+        super().__init__(nodes, observer, f'socket://127.0.0.1:{port}', namespace)
         self._setup = setup
-        self._port = free_port()
-        self.proxy = DeviceProxy(self._port)
+        self.proxy = DeviceProxy(port)
         self.relay = JointRelay(observer, namespace) if setup.relay_joints else None
         self.foreign: set[tuple[int, int]] = set()
         self._desired = -DESIRED
-        self.commands = observer.hear(TwistStamped, self.name('finger/cmd_vel'))
-        self.truth = observer.hear(JointState, self.name('ground_truth/state'))
-        self.states = observer.hear(JointState, self.name('push_controller/state'))
-        self.contacts = observer.hear(PoseStamped, self.name('contact'))
-        self.tactile = observer.hear(JointState, self.name('tactile'))
         self.diagnostics = observer.hear(DiagnosticArray, '/diagnostics')
 
-    def name(self, name: str) -> str:
-        """Give the full name of a node, topic or service of this finger."""
-        return f'/{self.namespace}/{name}' if self.namespace else f'/{name}'
-
-    def process(self, node: str) -> str:
-        """Give the name of a node's process."""
-        return f'{self.namespace}.{node}' if self.namespace else node
-
-    def start(self, node: str) -> None:
+    def begin(self, node: str) -> None:
         """Start one of its nodes."""
         parameters: dict[str, Any] = {'use_sim_time': True} if self._setup.own_clock else {}
         arguments: tuple[str, ...] = ()
-        if self.namespace:
-            arguments += ('-r', f'__ns:=/{self.namespace}')
         if node == 'sim_plant':
             # Balanced, so that an object that is not controlled for a while stays in reach.
             parameters |= {'theta_initial': 0.0, 'd_initial': 0.0}
-            parameters['device'] = f'socket://127.0.0.1:{self._port}'
             if self.relay is not None:
-                arguments += ('-r', f'joint_states:={self.relay.source}')
+                arguments = ('-r', f'joint_states:={self.relay.source}')
         elif node == 'sensor_driver':
             parameters['device'] = self.proxy.url
         elif node == 'push_controller':
             parameters['autostart'] = False
             parameters |= dict(self._setup.controller)
-        self.nodes.start(
-            node, parameters, config=CONFIG, name=self.process(node), arguments=arguments
-        )
+        self.start_node(node, parameters, arguments)
 
     def activate(self) -> None:
         """Activate the controller once its commands will be heard here."""
@@ -156,7 +134,7 @@ class Finger:
 
     def is_in_the_middle(self) -> bool:
         """Tell whether the object lies so that the finger can go on for long."""
-        last = self.truth[-1].message
+        last = self.truth[-1]
         return abs(field(last, 'theta')) < MOST_THETA and abs(field(last, 'd')) < MOST_D
 
     def wait_until_moving(self, patience: float = 5.0) -> float:
@@ -164,11 +142,11 @@ class Finger:
         seen = len(self.truth)
 
         def moving() -> bool:
-            last = [field(heard.message, 'v_x') for heard in self.truth[seen:][-5:]]
+            last = [field(m, 'v_x') for m in self.truth[seen:][-5:]]
             return self.state() == PUSHING and len(last) == 5 and min(map(abs, last)) > MOVING
 
         self.observer.wait_for(moving, f'{self.name("finger")} to move', patience)
-        return self.truth[-1].at
+        return self.truth.times[-1]
 
     def stopped(
         self, since: float, patience: float = 3.0, *, hold: float = HOLD, command: bool = False
@@ -197,23 +175,12 @@ class Finger:
 
     def _velocities(self, command: bool) -> list[tuple[float, float]]:
         if command:
-            return [(h.at, h.message.twist.linear.x) for h in self.commands[-100:]]
-        return [(h.at, field(h.message, 'v_x')) for h in self.truth[-500:]]
-
-    def state(self) -> str:
-        """Give the controller's last state."""
-        if not self.states:
-            return ''
-        return str(STATES[int(field(self.states[-1].message, 'state'))])
-
-    def reason(self) -> str:
-        """Give why the controller has stopped."""
-        number = field(self.states[-1].message, 'stop_reason')
-        return STOP_REASONS[int(number)]
+            return [(at, m.twist.linear.x) for at, m in self.commands.timed(-100)]
+        return [(at, field(m, 'v_x')) for at, m in self.truth.timed(-500)]
 
     def reasons_since(self, at: float) -> set[str]:
         """Give all reasons that the controller gave after a moment, '' for none."""
-        return {STOP_REASONS[int(field(m, 'stop_reason'))] for m in self.after(self.states, at)}
+        return {STOP_REASONS[int(field(m, 'stop_reason'))] for m in self.states.since(at)}
 
     def expect_reason(self, *reasons: str) -> None:
         """Wait for the controller to say why it has stopped."""
@@ -227,7 +194,7 @@ class Finger:
         """Watch that the controller does not resume on its own, though contacts come again."""
         said = len(self.commands)
         self.observer.spin(seconds)
-        moving = [h for h in self.commands[said:] if h.message.twist.linear.x != 0.0]
+        moving = [h for h in self.commands[said:] if h.twist.linear.x != 0.0]
         if moving or self.reason() != reason:
             raise BrokenPromiseError(f'resumed on its own from {reason}')
 
@@ -252,7 +219,7 @@ class Finger:
         """Give the last diagnostic status of a node, None if it has said nothing."""
         name = self.name(node).lstrip('/')
         for heard in reversed(self.diagnostics):
-            for status in heard.message.status:
+            for status in heard.status:
                 if status.name == name:
                     return status
         return None
@@ -276,10 +243,6 @@ class Finger:
         """Publish what is no node's message on one of its topics, and give the moment [s]."""
         self.foreign.add(stamp_of(message))
         return self.observer.publish(self.name(topic), message)
-
-    def after(self, heard: list[Heard[Any]], at: float) -> list[Any]:
-        """Give what was heard after a moment."""
-        return [h.message for h in heard if h.at > at]
 
     def close(self) -> None:
         """Take the device away."""

@@ -11,30 +11,30 @@ from sensor_msgs.msg import JointState
 
 from tactile_push.nodes.ros.diagnostics import WARN
 
+from .bench import Bench, expect
 from .finger import Finger
 from .promise import SILENT, Setup, fault
 from .relay import JointRelay
-from .rig import Rig, expect
 
 RELAYED = Setup(relay_joints=True)
 SPOILED = 2.0  # for so long a fault that need not stop the finger lasts [s]
 LATE = 0.5  # [s]
 
 
-def _stops_and_goes_on(rig: Rig) -> None:
+def _stops_and_goes_on(bench: Bench) -> None:
     """Wait for the stop, mend the joint states, and wait for the finger to move again."""
-    finger = rig.finger
-    rig.stopped(time.monotonic())
+    finger = bench.finger
+    bench.stopped(time.monotonic())
     finger.expect_reason('finger position unknown', 'contact silent')
     _relay(finger).mend()
     finger.wait_until_moving(10.0)
 
 
-def _goes_on(rig: Rig, alter: Callable[[JointState], JointState]) -> None:
+def _goes_on(bench: Bench, alter: Callable[[JointState], JointState]) -> None:
     """Spoil the joint states for a while, mend them, and wait for the finger to move again."""
-    finger = rig.finger
+    finger = bench.finger
     _relay(finger).alter = alter
-    rig.observer.spin(SPOILED)
+    bench.observer.spin(SPOILED)
     finger.rest_or_push()
     _relay(finger).mend()
     finger.wait_until_moving()
@@ -46,28 +46,28 @@ def _relay(finger: Finger) -> JointRelay:
 
 
 @fault('joint states silent', SILENT, setup=RELAYED)
-def joint_states_silent(rig: Rig) -> None:
+def joint_states_silent(bench: Bench) -> None:
     """Finger position unknown, or contact silent; pushes on."""
-    _relay(rig.finger).alter = lambda message: None
-    _stops_and_goes_on(rig)
+    _relay(bench.finger).alter = lambda message: None
+    _stops_and_goes_on(bench)
 
 
 @fault('joint states missing', SILENT, setup=RELAYED)
-def joint_states_missing(rig: Rig) -> None:
+def joint_states_missing(bench: Bench) -> None:
     """A geometry that has never heard any gives no contact; pushes on when they come."""
-    finger = rig.finger
+    finger = bench.finger
     _relay(finger).alter = lambda message: None
     at = finger.kill('contact_geometry')
-    rig.stopped(at)
-    finger.start('contact_geometry')
+    bench.stopped(at)
+    finger.begin('contact_geometry')
     finger.expect_level('contact_geometry', WARN, 5.0)
-    expect(not finger.after(finger.contacts, at + LATE), 'there are contacts')
+    expect(not finger.contacts.since(at + LATE), 'there are contacts')
     _relay(finger).mend()
     finger.wait_until_moving(10.0)
 
 
 @fault('joint states not finite', SILENT, setup=RELAYED)
-def joint_states_not_finite(rig: Rig) -> None:
+def joint_states_not_finite(bench: Bench) -> None:
     """Finger position unknown, or contact silent; pushes on."""
     values = itertools.cycle((math.nan, math.inf, -math.inf))
 
@@ -75,43 +75,43 @@ def joint_states_not_finite(rig: Rig) -> None:
         message.position = [next(values)] * len(message.position)
         return message
 
-    _relay(rig.finger).alter = spoil
-    _stops_and_goes_on(rig)
+    _relay(bench.finger).alter = spoil
+    _stops_and_goes_on(bench)
 
 
 @fault('joint states of other joints', SILENT, setup=RELAYED)
-def joint_states_of_others(rig: Rig) -> None:
+def joint_states_of_others(bench: Bench) -> None:
     """Finger position unknown, or contact silent; pushes on."""
 
     def rename(message: JointState) -> JointState:
         message.name = ['wheel', 'distal_joint']
         return message
 
-    _relay(rig.finger).alter = rename
-    _stops_and_goes_on(rig)
+    _relay(bench.finger).alter = rename
+    _stops_and_goes_on(bench)
 
 
 @fault('joint states without positions', SILENT, setup=RELAYED)
-def joint_states_without_positions(rig: Rig) -> None:
+def joint_states_without_positions(bench: Bench) -> None:
     """Finger position unknown, or contact silent; pushes on."""
 
     def empty(message: JointState) -> JointState:
         message.position = []
         return message
 
-    _relay(rig.finger).alter = empty
-    _stops_and_goes_on(rig)
+    _relay(bench.finger).alter = empty
+    _stops_and_goes_on(bench)
 
 
 @fault('joint states late', SILENT, setup=RELAYED)
-def joint_states_late(rig: Rig) -> None:
+def joint_states_late(bench: Bench) -> None:
     """Finger position unknown, or contact silent; pushes on."""
-    _relay(rig.finger).delay = LATE
-    _stops_and_goes_on(rig)
+    _relay(bench.finger).delay = LATE
+    _stops_and_goes_on(bench)
 
 
 @fault('joint states jump', setup=RELAYED)
-def joint_states_jump(rig: Rig) -> None:
+def joint_states_jump(bench: Bench) -> None:
     """Goes on or stops and says why; no kick; pushes again."""
     sides = itertools.cycle((-0.5, 0.5))
 
@@ -119,15 +119,15 @@ def joint_states_jump(rig: Rig) -> None:
         message.position = [message.position[0] + next(sides), message.position[1]]
         return message
 
-    _goes_on(rig, jump)
+    _goes_on(bench, jump)
 
 
 @fault('joint states jump once', setup=RELAYED)
-def joint_states_jump_once(rig: Rig) -> None:
+def joint_states_jump_once(bench: Bench) -> None:
     """Goes on or stops and says why; no kick; pushes again."""
 
     def shift(message: JointState) -> JointState:
         message.position = [message.position[0] + 0.2, message.position[1]]
         return message
 
-    _goes_on(rig, shift)
+    _goes_on(bench, shift)

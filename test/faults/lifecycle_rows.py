@@ -11,8 +11,8 @@ from geometry_msgs.msg import TwistStamped
 from lifecycle_msgs.msg import State, Transition
 from sensor_msgs.msg import JointState
 
-from .promise import NO_RIG, fault
-from .rig import Rig, expect
+from .bench import Bench, expect
+from .promise import NO_BENCH, fault
 
 UNCONFIGURED, INACTIVE = State.PRIMARY_STATE_UNCONFIGURED, State.PRIMARY_STATE_INACTIVE
 ACTIVE, FINALIZED = State.PRIMARY_STATE_ACTIVE, State.PRIMARY_STATE_FINALIZED
@@ -31,11 +31,11 @@ REQUESTS = 60
 MANAGED = ('push_controller', 'sensor_driver')
 
 
-def _ask(rig: Rig, node: str, state: int, transition: int) -> int:
+def _ask(bench: Bench, node: str, state: int, transition: int) -> int:
     """Ask for a transition, compare with what the state allows, and give the state after it."""
     after = LEADS_TO.get((state, transition), state)
-    done = rig.observer.change_state(node, transition)
-    now = rig.observer.lifecycle_state(node)
+    done = bench.observer.change_state(node, transition)
+    now = bench.observer.lifecycle_state(node)
     expect(
         (done, now) == ((state, transition) in LEADS_TO, after),
         f'{node}: transition {transition} in state {state} {"led" if done else "did not lead"} '
@@ -49,54 +49,52 @@ def _has_ended(process: subprocess.Popen[bytes]) -> bool:
 
 
 @fault('lifecycle: every order')
-def every_order(rig: Rig) -> None:
+def every_order(bench: Bench) -> None:
     """Makes what the state allows, refuses the rest; silent unless active; pushes on."""
-    finger, draw = rig.finger, random.Random(1)
+    finger, draw = bench.finger, random.Random(1)
     for name in MANAGED:
         node, state = finger.name(name), ACTIVE
         for _ in range(REQUESTS):
             said = len(finger.commands), len(finger.tactile)
-            state = _ask(rig, node, state, draw.choice(NO_SHUTDOWN))
+            state = _ask(bench, node, state, draw.choice(NO_SHUTDOWN))
             if state != ACTIVE:
                 spoken = len(finger.tactile) - said[1]
                 if name == 'push_controller':
-                    spoken = sum(
-                        h.message.twist.linear.x != 0.0 for h in finger.commands[said[0] + 1 :]
-                    )
+                    spoken = sum(h.twist.linear.x != 0.0 for h in finger.commands[said[0] + 1 :])
                 expect(spoken <= 2, f'{name} speaks in state {state}')
-        rig.observer.reach_state(node, ACTIVE)
+        bench.observer.reach_state(node, ACTIVE)
     finger.wait_until_moving()
 
 
-@fault('lifecycle: every transition in every state', setup=NO_RIG)
-def every_transition(rig: Rig) -> None:
+@fault('lifecycle: every transition in every state', setup=NO_BENCH)
+def every_transition(bench: Bench) -> None:
     """Refuses, twice, what the state does not allow; nothing leads out of the last state."""
     for name in MANAGED:
         for goal in (UNCONFIGURED, INACTIVE, ACTIVE):
-            rig.nodes.start(name, {'autostart': False})
-            rig.observer.reach_state(name, goal)
+            bench.nodes.start(name, {'autostart': False})
+            bench.observer.reach_state(name, goal)
             wrong = [t for t in EVERY if (goal, t) not in LEADS_TO]
             for transition in (*wrong, *wrong):
-                _ask(rig, name, goal, transition)
+                _ask(bench, name, goal, transition)
             (shutdown,) = [t for s, t in LEADS_TO if s == goal and LEADS_TO[s, t] == FINALIZED]
-            _ask(rig, name, goal, shutdown)
+            _ask(bench, name, goal, shutdown)
             for transition in EVERY:
-                _ask(rig, name, FINALIZED, transition)
-            process = rig.nodes.running.pop(name)
+                _ask(bench, name, FINALIZED, transition)
+            process = bench.nodes.running.pop(name)
             process.send_signal(signal.SIGINT)
-            rig.observer.wait_for(partial(_has_ended, process), f'{name} to end', 5.0)
+            bench.observer.wait_for(partial(_has_ended, process), f'{name} to end', 5.0)
             expect(process.returncode == 0, f'{name}: exit status {process.returncode}')
 
 
-@fault('controller alone', setup=NO_RIG)
-def controller_alone(rig: Rig) -> None:
+@fault('controller alone', setup=NO_BENCH)
+def controller_alone(bench: Bench) -> None:
     """Commands nothing before the first contact; a last 0 only."""
-    commands = rig.observer.hear(TwistStamped, '/finger/cmd_vel')
-    states = rig.observer.hear(JointState, '/push_controller/state')
-    process = rig.nodes.start('push_controller')
-    rig.observer.wait_for(lambda: len(states) > 10, 'ticks')
+    commands = bench.observer.hear(TwistStamped, '/finger/cmd_vel')
+    states = bench.observer.hear(JointState, '/push_controller/state')
+    process = bench.nodes.start('push_controller')
+    bench.observer.wait_for(lambda: len(states) > 10, 'ticks')
     expect(not commands, f'{len(commands)} commands')
-    rig.nodes.running.pop('push_controller')
+    bench.nodes.running.pop('push_controller')
     process.send_signal(signal.SIGTERM)
-    rig.observer.wait_for(partial(_has_ended, process), 'the controller to end', 5.0)
-    expect(all(h.message.twist.linear.x == 0.0 for h in commands), 'a last command that is not 0')
+    bench.observer.wait_for(partial(_has_ended, process), 'the controller to end', 5.0)
+    expect(all(h.twist.linear.x == 0.0 for h in commands), 'a last command that is not 0')

@@ -6,18 +6,6 @@ import math
 from typing import Any
 
 from geometry_msgs.msg import PoseStamped
-from sensor_msgs.msg import JointState
-
-
-def field(message: JointState, name: str) -> float:
-    """Give a position by its name, NaN if it is not there."""
-    names = list(message.name)
-    return float(message.position[names.index(name)]) if name in names else math.nan
-
-
-def seconds(stamp: Any) -> float:
-    """Give a stamp as a number [s]."""
-    return float(stamp.sec + stamp.nanosec * 1e-9)
 
 
 def stamp_of(message: Any) -> tuple[int, int]:

@@ -1,26 +1,19 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""The tool's own node: it hears, calls, publishes and waits, all in one thread."""
+"""The observer of nodes that are killed: it asks again, and publishes what no node would."""
 
 import contextlib
-import os
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any, Generic, TypeVar
+from typing import Any, TypeVar
 
-import rclpy
 from lifecycle_msgs.msg import State, Transition
-from lifecycle_msgs.srv import ChangeState, GetState
+from lifecycle_msgs.srv import GetState
 from rcl_interfaces.msg import Parameter, ParameterValue, SetParametersResult
 from rcl_interfaces.srv import SetParameters
-from rclpy.client import Client
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 from rclpy.publisher import Publisher
 
-from tactile_push.testing.processes import loopback
+from tactile_push.testing import Observer
 
 from .promise import BrokenPromiseError
 
@@ -35,77 +28,19 @@ TRANSITIONS = {  # by whether to go up and the state
 M = TypeVar('M')
 
 
-@dataclass(frozen=True)
-class Heard(Generic[M]):
-    """A message and when it arrived on the tool's steady clock [s]."""
-
-    at: float
-    message: M
-
-
-class Observer:
-    """Hears topics, calls services and waits for conditions.
-
-    Parameters
-    ----------
-    domain : int
-        ROS domain.
-    name : str, optional
-        Name of its node.
-    """
+class FaultObserver(Observer):
+    """Hears topics, calls services, publishes and waits for conditions."""
 
     def __init__(self, domain: int, name: str = 'fault_table') -> None:
-        os.environ.update(loopback())
-        self._context = Context()
-        rclpy.init(context=self._context, domain_id=domain)
-        self.node = Node(name, context=self._context)
-        self._executor = SingleThreadedExecutor(context=self._context)
-        self._executor.add_node(self.node)
-        self._clients: dict[str, Client] = {}
+        super().__init__(domain, name, PATIENCE)
         self._publishers: dict[str, Publisher] = {}
 
-    def close(self) -> None:
-        """Leave the domain."""
-        self._executor.shutdown()
-        self.node.destroy_node()
-        rclpy.shutdown(context=self._context)
-
-    def hear(self, message_type: type[M], topic: str) -> list[Heard[M]]:
-        """Subscribe and give the list to which the messages will be added."""
-        heard: list[Heard[M]] = []
-        self.node.create_subscription(
-            message_type, topic, lambda m: heard.append(Heard(time.monotonic(), m)), 1000
-        )
-        return heard
-
-    def spin_once(self) -> None:
-        """Hear what is there, or wait a moment for it."""
-        self._executor.spin_once(timeout_sec=0.02)
-
-    def spin(self, seconds: float) -> None:
-        """Hear for a while."""
-        end = time.monotonic() + seconds
-        while (left := end - time.monotonic()) > 0.0:
-            self._executor.spin_once(timeout_sec=left)
-
-    def wait_for(self, condition: Callable[[], M], what: str, patience: float = PATIENCE) -> M:
-        """Hear until something is true, and give it; it is a broken promise if it never is."""
-        deadline = time.monotonic() + patience
-        while not (outcome := condition()):
-            if time.monotonic() > deadline:
-                raise BrokenPromiseError(f'waited {patience:g} s in vain for {what}')
-            self.spin_once()
-        return outcome
-
-    def call(
-        self, service_type: Any, service: str, request: Any, patience: float = PATIENCE
-    ) -> Any:
-        """Call a service and give its answer."""
-        client = self._client(service_type, service)
-        self.wait_for(client.service_is_ready, f'service {service}', patience)
-        future = client.call_async(request)
-        self.wait_for(future.done, f'an answer of {service}', patience)
-        return future.result()
+    def wait_for(self, condition: Callable[[], M], what: str, patience: float | None = None) -> M:
+        """Hear until a condition holds, and return it; it is a broken promise if it never does."""
+        try:
+            return super().wait_for(condition, what, patience)
+        except TimeoutError as error:
+            raise BrokenPromiseError(str(error)) from None
 
     def ask(self, service_type: Any, service: str, request: Any) -> Any:
         """Call a service that may be called twice, and ask again if nobody answers.
@@ -122,7 +57,7 @@ class Observer:
         raise BrokenPromiseError(f'waited {PATIENCE:g} s in vain for an answer of {service}')
 
     def publish(self, topic: str, message: Any) -> float:
-        """Publish a message and give the moment [s]."""
+        """Publish a message once all subscribers hear, and return the moment [s]."""
         if topic not in self._publishers:
             publisher = self.node.create_publisher(type(message), topic, 10)
             self._publishers[topic] = publisher
@@ -135,16 +70,11 @@ class Observer:
         return at
 
     def publishers(self, topic: str) -> set[bytes]:
-        """Give the identities of a topic's publishers, those that died lately included."""
+        """Return the identities of a topic's publishers, those that died lately included."""
         return {bytes(i.endpoint_gid) for i in self.node.get_publishers_info_by_topic(topic)}
 
-    def change_state(self, node: str, transition: int) -> bool:
-        """Ask a managed node for a transition and say whether it was made."""
-        request = ChangeState.Request(transition=Transition(id=transition))
-        return bool(self.call(ChangeState, f'{node}/change_state', request).success)
-
     def lifecycle_state(self, node: str) -> int:
-        """Give the id of a managed node's state."""
+        """Return the id of a managed node's state."""
         answer = self.ask(GetState, f'{node}/get_state', GetState.Request())
         return int(answer.current_state.id)
 
@@ -155,11 +85,6 @@ class Observer:
                 raise BrokenPromiseError(f'{node} does not leave state {state}')
 
     def set_parameter(self, node: str, name: str, value: ParameterValue) -> SetParametersResult:
-        """Set a parameter of a node and give what it says to that."""
+        """Set a parameter of a node and return what it says to that."""
         request = SetParameters.Request(parameters=[Parameter(name=name, value=value)])
         return self.ask(SetParameters, f'{node}/set_parameters', request).results[0]
-
-    def _client(self, service_type: Any, service: str) -> Client:
-        if service not in self._clients:
-            self._clients[service] = self.node.create_client(service_type, service)
-        return self._clients[service]

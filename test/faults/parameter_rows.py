@@ -21,8 +21,8 @@ from tactile_push.nodes.sensor_driver import SensorDriver
 from tactile_push.nodes.sim_plant import SimPlant
 from tactile_push.parameters import Parameter
 
-from .promise import NO_RIG, fault
-from .rig import Rig, expect
+from .bench import Bench, expect
+from .promise import NO_BENCH, fault
 
 NODES: tuple[type[Node], ...] = (SensorDriver, ContactGeometry, PushController, SimPlant)
 START_TIMEOUT = 30.0  # [s]
@@ -89,35 +89,35 @@ def wrong_values(parameter: Parameter) -> Iterator[Any]:
         yield parameter.default
 
 
-@fault('parameters wrong at the start', setup=NO_RIG)
-def wrong_at_the_start(rig: Rig) -> None:
+@fault('parameters wrong at the start', setup=NO_BENCH)
+def wrong_at_the_start(bench: Bench) -> None:
     """Ends with status 2 and one line that names what is wrong."""
-    said = _start_all(rig)
+    said = _start_all(bench)
     for (node, argument), (status, words) in zip(WRONG_ARGUMENTS, said, strict=True):
         expect(status == 2, f'{node} {argument}: exit status {status}')
         expect(words.count('\n') == 1, f'{node} {argument}: {words!r}')
 
 
 @fault('parameters wrong at run time')
-def wrong_at_run_time(rig: Rig) -> None:
+def wrong_at_run_time(bench: Bench) -> None:
     """Are refused with a reason and stay as they were; pushes on."""
-    finger = rig.finger
+    finger = bench.finger
     begin = time.monotonic()
     for node in NODES:
         name = finger.name(node.NAME)
         declared = node.PARAMETERS.declared()
-        before = _values(rig, name, declared)
+        before = _values(bench, name, declared)
         for parameter in declared:
             for value in wrong_values(parameter):
-                answer = rig.observer.set_parameter(name, parameter.name, value_of(value))
+                answer = bench.observer.set_parameter(name, parameter.name, value_of(value))
                 expect(
                     not answer.successful and bool(answer.reason),
                     f'{node.NAME}: {parameter.name} = {value!r} was taken or refused in silence',
                 )
-        answer = rig.observer.set_parameter(name, 'nonsense', value_of(1.0))
+        answer = bench.observer.set_parameter(name, 'nonsense', value_of(1.0))
         expect(not answer.successful, f'{node.NAME}: nonsense = 1.0 was taken')
         expect(
-            _values(rig, name, declared) == before,
+            _values(bench, name, declared) == before,
             f'{node.NAME}: something changed',
         )
     stops = finger.reasons_since(begin) - {''}
@@ -126,25 +126,25 @@ def wrong_at_run_time(rig: Rig) -> None:
 
 
 @fault('largest gains')
-def largest_gains(rig: Rig) -> None:
+def largest_gains(bench: Bench) -> None:
     """Keeps within the bounds on v_x and its change; pushes on with the gains before."""
-    finger = rig.finger
+    finger = bench.finger
     controller = finger.name('push_controller')
     usual = {'kp': 0.05, 'kd': 5.0}
     for gains in ({'kp': 100.0, 'kd': 1000.0}, usual):
         for name, value in gains.items():
-            answer = rig.observer.set_parameter(controller, name, value_of(value))
+            answer = bench.observer.set_parameter(controller, name, value_of(value))
             expect(answer.successful, f'{name} = {value}: {answer.reason}')
-        rig.observer.spin(WILD if gains is not usual else 0.0)
+        bench.observer.spin(WILD if gains is not usual else 0.0)
     finger.push(10.0)
 
 
-def _values(rig: Rig, node: str, parameters: tuple[Parameter, ...]) -> str:
+def _values(bench: Bench, node: str, parameters: tuple[Parameter, ...]) -> str:
     request = GetParameters.Request(names=[parameter.name for parameter in parameters])
-    return str(rig.observer.ask(GetParameters, f'{node}/get_parameters', request).values)
+    return str(bench.observer.ask(GetParameters, f'{node}/get_parameters', request).values)
 
 
-def _start_all(rig: Rig) -> list[tuple[int, str]]:
+def _start_all(bench: Bench) -> list[tuple[int, str]]:
     """Start a node with each wrong argument, two at a time; give exit status and words."""
 
     def start(case: tuple[str, str]) -> tuple[int, str]:
@@ -152,7 +152,7 @@ def _start_all(rig: Rig) -> list[tuple[int, str]]:
         module = f'tactile_push.nodes.{node}'
         done = subprocess.run(
             [sys.executable, '-m', module, '--ros-args', *argument.split()],
-            env=rig.nodes.environment,
+            env=bench.nodes.environment,
             stdin=subprocess.DEVNULL,
             capture_output=True,
             text=True,

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .rig import Rig
+    from .bench import Bench
 
 # How long the finger may go on after a fault [s].
 SILENT = 0.45  # contact_timeout, one control period, the way of the last reading and the command
@@ -22,12 +22,12 @@ class BrokenPromiseError(Exception):
 
 @dataclass(frozen=True)
 class Setup:
-    """The rig that a fault needs.
+    """The bench that a fault needs.
 
     Parameters
     ----------
     fingers : tuple of str
-        Namespace of each finger with its plant; '' is the root. None: only nodes without a rig.
+        Namespace of each finger with its plant; '' is the root. None: only nodes without a bench.
     relay_joints : bool, optional
         Whether the joint states pass through the tool, which can spoil them.
     own_clock : bool, optional
@@ -43,7 +43,7 @@ class Setup:
 
 
 PLAIN = Setup()
-NO_RIG = Setup(fingers=())
+NO_BENCH = Setup(fingers=())
 
 
 @dataclass(frozen=True)
@@ -57,19 +57,19 @@ class Fault:
     promise : str
         What is promised.
     inject : callable
-        Does it to a running rig; raises `BrokenPromiseError` if a promise is broken. The rig
+        Does it to a running bench; raises `BrokenPromiseError` if a promise is broken. The bench
         keeps the reaction that it measured.
     within : float or None
         Bound on the reaction [s]; None if the finger need not stop.
     setup : Setup
-        The rig that it needs.
+        The bench that it needs.
     last : bool
-        Whether nothing can be done with the rig afterwards.
+        Whether nothing can be done with the bench afterwards.
     """
 
     name: str
     promise: str
-    inject: Callable[['Rig'], None]
+    inject: Callable[['Bench'], None]
     within: float | None = None
     setup: Setup = PLAIN
     last: bool = False
@@ -124,10 +124,10 @@ def fault(
     *,
     setup: Setup = PLAIN,
     last: bool = False,
-) -> Callable[[Callable[['Rig'], None]], Callable[['Rig'], None]]:
+) -> Callable[[Callable[['Bench'], None]], Callable[['Bench'], None]]:
     """Make a row of a function that injects a fault, its docstring the promise; see `Fault`."""
 
-    def add(inject: Callable[['Rig'], None]) -> Callable[['Rig'], None]:
+    def add(inject: Callable[['Bench'], None]) -> Callable[['Bench'], None]:
         promise = ' '.join((inject.__doc__ or '').split()).removesuffix('.')
         FAULTS.append(Fault(name, promise, inject, within, setup, last))
         return inject

@@ -10,7 +10,7 @@ from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 from sensor_msgs.msg import JointState
 
-from .observer import Observer
+from .observer import FaultObserver
 
 LOOK_PERIOD = 0.01  # [s]
 
@@ -20,7 +20,7 @@ class JointRelay:
 
     Parameters
     ----------
-    observer : Observer
+    observer : FaultObserver
         Its node does it.
     namespace : str
         Of the finger.
@@ -35,7 +35,7 @@ class JointRelay:
         How late a message arrives [s].
     """
 
-    def __init__(self, observer: Observer, namespace: str) -> None:
+    def __init__(self, observer: FaultObserver, namespace: str) -> None:
         prefix = f'/{namespace}' if namespace else ''
         self.source = f'{prefix}/finger/joint_states'
         self._waiting: deque[tuple[float, JointState]] = deque()

@@ -12,17 +12,17 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from .bench import Bench
 from .machine import HoldUps
 from .promise import BrokenPromiseError, Fault, Outcome, Setup
-from .rig import Rig
 
-StartRig = Callable[[Setup], Rig]
+StartBench = Callable[[Setup], Bench]
 STANDSTILL = 0.1  # of the machine, after which a broken row says nothing of the nodes [s]
 ATTEMPTS = 3
 
 
-def start_rig(setup: Setup) -> Rig:
-    """Give a running rig.
+def start_bench(setup: Setup) -> Bench:
+    """Give a running bench.
 
     Parameters
     ----------
@@ -31,30 +31,30 @@ def start_rig(setup: Setup) -> Rig:
 
     Returns
     -------
-    Rig
-        The rig, its controllers active.
+    Bench
+        The bench, its controllers active.
 
     Raises
     ------
     BrokenPromiseError
         If it does not start; nothing is left of it then.
     """
-    rig = Rig(setup)
+    bench = Bench(setup)
     try:
-        rig.start()
+        bench.start()
     except BaseException:
-        rig.close()
+        bench.close()
         raise
-    return rig
+    return bench
 
 
 class Runner:
-    """Injects faults, one after the other, and keeps a rig for as long as it is good.
+    """Injects faults, one after the other, and keeps a bench for as long as it is good.
 
     Parameters
     ----------
     start : callable, optional
-        Gives a running rig.
+        Gives a running bench.
 
     Attributes
     ----------
@@ -62,9 +62,9 @@ class Runner:
         The rows so far.
     """
 
-    def __init__(self, start: StartRig = start_rig) -> None:
+    def __init__(self, start: StartBench = start_bench) -> None:
         self._start = start
-        self._rig: Rig | None = None
+        self._bench: Bench | None = None
         self._hold_ups = HoldUps()
         self.outcomes: list[Outcome] = []
 
@@ -106,49 +106,49 @@ class Runner:
         within = None if fault.within is None else 1000.0 * fault.within
         outcome = Outcome(fault.name, fault.promise, within, None)
         try:
-            rig = self._ready(fault.setup)
+            bench = self._ready(fault.setup)
         except BrokenPromiseError as error:
             outcome.broken.append(f'before the fault: {error}')
             self._close()
             return outcome
-        rig.reaction = None
+        bench.reaction = None
         try:
-            fault.inject(rig)
+            fault.inject(bench)
         except BrokenPromiseError as error:
             outcome.broken.append(str(error))
-        if rig.reaction is not None:
-            outcome.reaction_ms = 1000.0 * rig.reaction
+        if bench.reaction is not None:
+            outcome.reaction_ms = 1000.0 * bench.reaction
         outcome.judge()
-        outcome.broken += rig.complaints()
+        outcome.broken += bench.complaints()
         if fault.last or outcome.broken:
             outcome.broken += self._close()
         return outcome
 
     def finish(self) -> None:
-        """End the last rig; what was wrong with its end belongs to the last row."""
+        """End the last bench; what was wrong with its end belongs to the last row."""
         complaints = self._close()
         if complaints:
             self.outcomes[-1].broken += complaints
 
-    def _ready(self, setup: Setup) -> Rig:
-        """Give a rig of this kind whose fingers push: the one that runs, unless it is used up."""
-        if self._rig is not None:
-            if self._rig.setup == setup and self._rig.is_in_the_middle():
-                self._push(self._rig)
-                return self._rig
+    def _ready(self, setup: Setup) -> Bench:
+        """Give a bench of this kind whose fingers push: the one that runs, unless it is used up."""
+        if self._bench is not None:
+            if self._bench.setup == setup and self._bench.is_in_the_middle():
+                self._push(self._bench)
+                return self._bench
             self.finish()
-        self._rig = self._start(setup)
-        self._push(self._rig)
-        return self._rig
+        self._bench = self._start(setup)
+        self._push(self._bench)
+        return self._bench
 
     @staticmethod
-    def _push(rig: Rig) -> None:
-        for finger in rig.fingers:
+    def _push(bench: Bench) -> None:
+        for finger in bench.fingers:
             finger.push()
 
     def _close(self) -> list[str]:
-        rig, self._rig = self._rig, None
-        return rig.close() if rig is not None else []
+        bench, self._bench = self._bench, None
+        return bench.close() if bench is not None else []
 
 
 def show(outcomes: Sequence[Outcome], console: Console) -> None:

@@ -24,7 +24,7 @@ from faults.promise import (
     Setup,
 )
 from faults.proxy import Corruption, DeviceProxy, Sent
-from faults.table import Runner, start_rig
+from faults.table import Runner, start_bench
 from tactile_push.devices import Sentence, SentenceStream, encode
 from tactile_push.parameters import Parameter
 from tactile_push.tactile import NO_CONTACT, Reading
@@ -32,7 +32,7 @@ from tactile_push.tactile import NO_CONTACT, Reading
 OTHER = Setup(relay_joints=True)
 
 
-class FakeRig:
+class FakeBench:
     """Stands in for nodes: pushes unless told not to."""
 
     def __init__(self, setup, log):
@@ -68,23 +68,23 @@ def log():
 
 @pytest.fixture
 def runner(log):
-    with Runner(lambda setup: FakeRig(setup, log)) as runner:
+    with Runner(lambda setup: FakeBench(setup, log)) as runner:
         yield runner
 
 
-def row(inject=lambda rig: None, within=None, **how):
+def row(inject=lambda bench: None, within=None, **how):
     return Fault('rigged', 'nothing happens', inject, within, **how)
 
 
 def reacting(seconds):
-    def inject(rig):
-        rig.reaction = seconds
+    def inject(bench):
+        bench.reaction = seconds
 
     return inject
 
 
-def breaking(rig):
-    rig.reaction = 0.1
+def breaking(bench):
+    bench.reaction = 0.1
     raise BrokenPromiseError('something else happened')
 
 
@@ -108,8 +108,8 @@ def test_promise_that_is_not_kept_is_broken(runner, inject, reason):
 
 
 def test_what_must_not_be_heard_breaks_any_promise(runner):
-    def inject(rig):
-        rig.found = ['command of nan']
+    def inject(bench):
+        bench.found = ['command of nan']
 
     assert runner.run(row(inject)).broken == ['command of nan']
 
@@ -117,8 +117,8 @@ def test_what_must_not_be_heard_breaks_any_promise(runner):
 def test_row_that_is_broken_while_the_machine_stood_still_is_measured_again(runner, log):
     attempts = []
 
-    def stand_still(rig):
-        attempts.append(rig)
+    def stand_still(bench):
+        attempts.append(bench)
         runner._hold_ups.longest = 0.5
         if len(attempts) == 1:
             raise BrokenPromiseError('too late')
@@ -127,8 +127,8 @@ def test_row_that_is_broken_while_the_machine_stood_still_is_measured_again(runn
     assert len(attempts) == 2
     attempts.clear()
 
-    def stand_still_and_break(rig):
-        attempts.append(rig)
+    def stand_still_and_break(bench):
+        attempts.append(bench)
         runner._hold_ups.longest = 0.5
         raise BrokenPromiseError('too late')
 
@@ -172,8 +172,8 @@ def test_rig_serves_rows_until_one_is_broken_or_the_last_or_needs_another(runner
 
 
 def test_rig_whose_object_has_gone_far_is_used_up_and_not_broken(runner, log):
-    def use_up(rig):
-        rig.middle = False
+    def use_up(bench):
+        bench.middle = False
 
     assert runner.run(row(use_up)).held
     assert runner.run(row()).held
@@ -182,17 +182,17 @@ def test_rig_whose_object_has_gone_far_is_used_up_and_not_broken(runner, log):
 
 def test_rig_that_never_pushes_is_a_broken_row():
     def start(setup):
-        rig = FakeRig(setup, [])
-        rig.pushes = False
-        return rig
+        bench = FakeBench(setup, [])
+        bench.pushes = False
+        return bench
 
     with Runner(start) as runner:
         assert runner.run(row()).broken == ['before the fault: does not move']
 
 
 def test_wrong_end_of_the_nodes_belongs_to_the_last_row(runner):
-    def inject(rig):
-        rig.wrong_end = ['sensor_driver: exit status 1']
+    def inject(bench):
+        bench.wrong_end = ['sensor_driver: exit status 1']
 
     runner.run(row())
     runner.run(row(inject))
@@ -201,12 +201,12 @@ def test_wrong_end_of_the_nodes_belongs_to_the_last_row(runner):
 
 
 def test_everything_ends_when_a_row_throws(log):
-    def interrupt(rig):
+    def interrupt(bench):
         raise KeyboardInterrupt
 
     with (
         contextlib.suppress(KeyboardInterrupt),
-        Runner(lambda setup: FakeRig(setup, log)) as runner,
+        Runner(lambda setup: FakeBench(setup, log)) as runner,
     ):
         runner.run(row(interrupt))
     assert log == ['start', 'close']
@@ -216,7 +216,7 @@ def test_everything_ends_when_a_row_throws(log):
 def main(monkeypatch, capsys, log):
     """Return a function that runs the command on rows: exit status, standard output, error."""
     module = importlib.import_module('faults.__main__')
-    monkeypatch.setattr(module, 'Runner', lambda: Runner(lambda setup: FakeRig(setup, log)))
+    monkeypatch.setattr(module, 'Runner', lambda: Runner(lambda setup: FakeBench(setup, log)))
     monkeypatch.setattr(module, 'interrupt_once', lambda: None)
 
     def run(faults, *arguments):
@@ -262,14 +262,14 @@ def test_command_ends_with_1_and_says_why_if_a_promise_is_broken(main, tmp_path)
 
 
 def test_wrong_end_alone_ends_the_command_with_1(main):
-    def inject(rig):
-        rig.wrong_end = ['traceback in sensor_driver.log']
+    def inject(bench):
+        bench.wrong_end = ['traceback in sensor_driver.log']
 
     assert main([row(inject)])[0] == 1
 
 
 def test_ctrl_c_ends_the_command_with_130_and_all_nodes(main, log):
-    def interrupt(rig):
+    def interrupt(bench):
         raise KeyboardInterrupt
 
     assert main([row(interrupt)])[0] == 130
@@ -492,7 +492,7 @@ def test_device_goes_with_its_sensor(line):
 @pytest.fixture(scope='module')
 def real():
     """Give a runner with real nodes for some rows."""
-    with Runner(start_rig) as runner:
+    with Runner(start_bench) as runner:
         yield runner
 
 
@@ -506,7 +506,7 @@ def test_real_row_is_held(real, name):
 
 def test_real_finger_that_nobody_stops_is_a_broken_promise(real):
     outcome = real.run(
-        Fault('rigged', 'stops', lambda rig: rig.stopped(time.monotonic(), 1.0), 0.45, PLAIN)
+        Fault('rigged', 'stops', lambda bench: bench.stopped(time.monotonic(), 1.0), 0.45, PLAIN)
     )
     assert outcome.broken == [
         'waited 1 s in vain for /finger to stop',

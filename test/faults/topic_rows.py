@@ -13,9 +13,10 @@ from geometry_msgs.msg import PoseStamped, Quaternion, TwistStamped
 from lifecycle_msgs.msg import State
 from sensor_msgs.msg import JointState
 
-from .messages import field
+from tactile_push.testing import field
+
+from .bench import Bench, expect
 from .promise import ONE_PERIOD, fault
-from .rig import Rig, expect
 
 FRAME = 'finger_disk'
 BAD = 0.3  # for so long contacts that must stop the finger are sent [s]
@@ -42,107 +43,107 @@ def _stamp(late: float = 0.0) -> tuple[int, int]:
     return divmod(time.time_ns() - round(late * 1e9), 1_000_000_000)
 
 
-def _implausible(rig: Rig, rotation: Quaternion | None = None, frame: str = FRAME) -> None:
+def _implausible(bench: Bench, rotation: Quaternion | None = None, frame: str = FRAME) -> None:
     """Publish contacts that no edge can have, among the real ones."""
-    finger = rig.finger
+    finger = bench.finger
     begin = time.monotonic()
     while time.monotonic() - begin < BAD:
         finger.publish('contact', contact(rotation, frame))
-        rig.observer.spin(PERIOD)
-    rig.stopped(begin, hold=0.1)
+        bench.observer.spin(PERIOD)
+    bench.stopped(begin, hold=0.1)
     expect('implausible contact' in finger.reasons_since(begin), 'stopped for another reason')
     finger.wait_until_moving()
 
 
 @fault('contact not finite', ONE_PERIOD)
-def contact_not_finite(rig: Rig) -> None:
+def contact_not_finite(bench: Bench) -> None:
     """Implausible contact; pushes on its own when they are good for a while."""
-    _implausible(rig, Quaternion(x=NAN, y=NAN, z=NAN, w=NAN))
+    _implausible(bench, Quaternion(x=NAN, y=NAN, z=NAN, w=NAN))
 
 
 @fault('contact infinite', ONE_PERIOD)
-def contact_infinite(rig: Rig) -> None:
+def contact_infinite(bench: Bench) -> None:
     """Implausible contact; pushes on its own when they are good for a while."""
-    _implausible(rig, Quaternion(z=math.inf, w=1.0))
+    _implausible(bench, Quaternion(z=math.inf, w=1.0))
 
 
 @fault('contact without rotation', ONE_PERIOD)
-def contact_without_rotation(rig: Rig) -> None:
+def contact_without_rotation(bench: Bench) -> None:
     """Implausible contact; pushes on its own when they are good for a while."""
-    _implausible(rig, Quaternion(w=0.0))
+    _implausible(bench, Quaternion(w=0.0))
 
 
 @fault('contact tilted', ONE_PERIOD)
-def contact_tilted(rig: Rig) -> None:
+def contact_tilted(bench: Bench) -> None:
     """Implausible contact; pushes on its own when they are good for a while."""
-    _implausible(rig, Quaternion(x=0.5, y=0.5, z=0.5, w=0.5))
+    _implausible(bench, Quaternion(x=0.5, y=0.5, z=0.5, w=0.5))
 
 
 @fault('contact from behind', ONE_PERIOD)
-def contact_from_behind(rig: Rig) -> None:
+def contact_from_behind(bench: Bench) -> None:
     """Implausible contact; pushes on its own when they are good for a while."""
-    _implausible(rig, Quaternion(z=1.0, w=0.0))
+    _implausible(bench, Quaternion(z=1.0, w=0.0))
 
 
 @fault('contact in another frame', ONE_PERIOD)
-def contact_in_another_frame(rig: Rig) -> None:
+def contact_in_another_frame(bench: Bench) -> None:
     """Implausible contact; pushes on its own when they are good for a while."""
-    _implausible(rig, frame='map')
+    _implausible(bench, frame='map')
 
 
-def _does_not_count(rig: Rig, topic: str, make: Callable[[], Any]) -> None:
+def _does_not_count(bench: Bench, topic: str, make: Callable[[], Any]) -> None:
     """Publish messages for a while and watch that the finger goes on as if there were none."""
-    finger = rig.finger
+    finger = bench.finger
     begin = time.monotonic()
     commands = max(0, len(finger.commands) - 1)
     while time.monotonic() - begin < STREAM:
         finger.publish(topic, make())
-        rig.observer.spin(PERIOD)
+        bench.observer.spin(PERIOD)
     reasons = finger.reasons_since(begin) - {''}
     expect(not reasons, f'stopped: {", ".join(reasons)}')
-    v_x = [h.message.twist.linear.x for h in finger.commands[commands:]]
+    v_x = [h.twist.linear.x for h in finger.commands[commands:]]
     step = max(abs(b - a) for a, b in itertools.pairwise(v_x))
     expect(step < CALM, f'step of {1000.0 * step:.1f} mm/s')
 
 
 @fault('contacts old')
-def contacts_old(rig: Rig) -> None:
+def contacts_old(bench: Bench) -> None:
     """Pushes on: they do not count."""
-    _does_not_count(rig, 'contact', lambda: contact(late=1.0))
+    _does_not_count(bench, 'contact', lambda: contact(late=1.0))
 
 
 @fault('contacts out of order')
-def contacts_out_of_order(rig: Rig) -> None:
+def contacts_out_of_order(bench: Bench) -> None:
     """Pushes on: they do not count."""
-    _does_not_count(rig, 'contact', lambda: contact(late=0.2))
+    _does_not_count(bench, 'contact', lambda: contact(late=0.2))
 
 
 @fault('contacts from the future')
-def contacts_from_the_future(rig: Rig) -> None:
+def contacts_from_the_future(bench: Bench) -> None:
     """Pushes on: they do not count, and real ones still do."""
     sent = itertools.count()
 
     def now_and_then() -> PoseStamped:
         return contact(late=-10.0 if next(sent) % 20 == 0 else 1.0)
 
-    _does_not_count(rig, 'contact', now_and_then)
+    _does_not_count(bench, 'contact', now_and_then)
 
 
 @fault('contacts repeated')
-def contacts_repeated(rig: Rig) -> None:
+def contacts_repeated(bench: Bench) -> None:
     """Pushes on: a stamp counts once."""
-    finger = rig.finger
+    finger = bench.finger
 
     def again() -> PoseStamped:
         message = contact()
-        message.header = finger.contacts[-5].message.header
+        message.header = finger.contacts[-5].header
         return message
 
-    _does_not_count(rig, 'contact', again)
+    _does_not_count(bench, 'contact', again)
 
 
 @fault('readings not finite, on the topic')
-def tactile_not_finite(rig: Rig) -> None:
+def tactile_not_finite(bench: Bench) -> None:
     """Pushes on: they are refused."""
     values = itertools.cycle((NAN, math.inf, -math.inf, 1e308))
 
@@ -152,11 +153,11 @@ def tactile_not_finite(rig: Rig) -> None:
         message.header.stamp.sec, message.header.stamp.nanosec = _stamp()
         return message
 
-    _does_not_count(rig, 'tactile', reading)
+    _does_not_count(bench, 'tactile', reading)
 
 
 @fault('readings without fields, on the topic')
-def tactile_without_fields(rig: Rig) -> None:
+def tactile_without_fields(bench: Bench) -> None:
     """Pushes on: they are refused."""
     shapes = itertools.cycle(
         (([], []), (['azimuth'], []), ([], [1.0]), (['elevation', 'azimuth'], [1.0]))
@@ -168,7 +169,7 @@ def tactile_without_fields(rig: Rig) -> None:
         message.header.stamp.sec, message.header.stamp.nanosec = _stamp()
         return message
 
-    _does_not_count(rig, 'tactile', reading)
+    _does_not_count(bench, 'tactile', reading)
 
 
 def command(v_x: float) -> TwistStamped:
@@ -180,31 +181,31 @@ def command(v_x: float) -> TwistStamped:
     return message
 
 
-def _held(rig: Rig, reason: str) -> None:
+def _held(bench: Bench, reason: str) -> None:
     """Watch that the finger rests for this reason until the service is called."""
-    rig.finger.expect_reason(reason)
-    rig.finger.expect_rest(reason)
-    rig.finger.resume()
+    bench.finger.expect_reason(reason)
+    bench.finger.expect_rest(reason)
+    bench.finger.resume()
 
 
 @fault('another command', ONE_PERIOD)
-def another_command(rig: Rig) -> None:
+def another_command(bench: Bench) -> None:
     """Another command; resumes by service."""
-    rig.stopped(rig.finger.publish('finger/cmd_vel', command(0.001)))
-    _held(rig, 'another command')
+    bench.stopped(bench.finger.publish('finger/cmd_vel', command(0.001)))
+    _held(bench, 'another command')
 
 
 @fault('another command, not finite', ONE_PERIOD)
-def another_command_not_finite(rig: Rig) -> None:
+def another_command_not_finite(bench: Bench) -> None:
     """The plant ignores it; another command; resumes by service."""
-    rig.stopped(rig.finger.publish('finger/cmd_vel', command(NAN)))
-    _held(rig, 'another command')
+    bench.stopped(bench.finger.publish('finger/cmd_vel', command(NAN)))
+    _held(bench, 'another command')
 
 
 @fault('two controllers', ONE_PERIOD)
-def two_controllers(rig: Rig) -> None:
+def two_controllers(bench: Bench) -> None:
     """Both stop: another command; the one that is left resumes by service."""
-    finger = rig.finger
+    finger = bench.finger
     topics = ('push_controller/state', 'push_controller/resume')
     arguments = [f'{topic}:={topic.replace("push_controller", SECOND)}' for topic in topics]
     arguments.append(f'__node:={SECOND}')
@@ -214,21 +215,21 @@ def two_controllers(rig: Rig) -> None:
         name=SECOND,
         arguments=tuple(word for argument in arguments for word in ('-r', argument)),
     )
-    rig.observer.reach_state(SECOND, State.PRIMARY_STATE_INACTIVE)
+    bench.observer.reach_state(SECOND, State.PRIMARY_STATE_INACTIVE)
     # Nobody hears a publisher that he has not found yet.
-    rig.observer.wait_for(
+    bench.observer.wait_for(
         lambda: finger.count('push_controller', 'other publishers of finger/cmd_vel'),
         'the controller to find the other',
     )
-    ticks = rig.observer.hear(JointState, f'{SECOND}/state')
-    rig.observer.reach_state(SECOND, State.PRIMARY_STATE_ACTIVE)
+    ticks = bench.observer.hear(JointState, f'{SECOND}/state')
+    bench.observer.reach_state(SECOND, State.PRIMARY_STATE_ACTIVE)
 
     def commands() -> list[float]:
-        return [tick.at for tick in ticks if math.isfinite(field(tick.message, 'v_x'))]
+        return [at for at, tick in ticks.timed() if math.isfinite(field(tick, 'v_x'))]
 
-    first, *_ = rig.observer.wait_for(commands, 'the second controller to command the finger')
-    rig.stopped(first)
+    first, *_ = bench.observer.wait_for(commands, 'the second controller to command the finger')
+    bench.stopped(first)
     finger.signal(SECOND, signal.SIGINT)
     status = finger.ended(SECOND)
     expect(status == 0, f'exit status {status}')
-    _held(rig, 'another command')
+    _held(bench, 'another command')

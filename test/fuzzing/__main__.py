@@ -19,7 +19,7 @@ from rich.progress import Progress
 
 from faults.interrupt import interrupt_once
 from faults.promise import PLAIN, BrokenPromiseError
-from faults.table import start_rig
+from faults.table import start_bench
 from fuzzing.chain import FuzzError, run
 from fuzzing.mutation import mutated_input
 from fuzzing.nodes import send_extremes
@@ -38,11 +38,11 @@ def fuzz_bytes(total: int, seed: int, progress: Callable[[int], None]) -> str:
 
 def fuzz_messages(progress: Callable[[str], None]) -> str:
     """Send messages to the nodes and say in a line what came of them."""
-    rig = start_rig(PLAIN)
+    bench = start_bench(PLAIN)
     try:
-        sent = send_extremes(rig, progress)
+        sent = send_extremes(bench, progress)
     finally:
-        complaints = rig.close()
+        complaints = bench.close()
     if complaints:
         raise FuzzError('; '.join(complaints))
     return f'{sent} messages: all nodes run, all commands finite, the finger pushes again'

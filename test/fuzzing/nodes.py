@@ -11,9 +11,9 @@ from typing import Any
 from geometry_msgs.msg import TwistStamped
 from sensor_msgs.msg import JointState
 
-from faults.messages import field
-from faults.rig import Rig
+from faults.bench import Bench
 from tactile_push.control import HELD
+from tactile_push.testing import field
 
 from .chain import FuzzError
 from .messages import extremes
@@ -22,13 +22,13 @@ PAUSE = 0.005  # between messages [s]
 CLOSE_LOOK = 10  # messages between two looks at what the nodes said
 
 
-def send_extremes(rig: Rig, progress: Callable[[str], None] = lambda what: None) -> int:
+def send_extremes(bench: Bench, progress: Callable[[str], None] = lambda what: None) -> int:
     """Send every message that the nodes hear with every field at its extremes.
 
     Parameters
     ----------
-    rig : Rig
-        A running rig.
+    bench : Bench
+        A running bench.
     progress : callable, optional
         Told what is being sent.
 
@@ -44,20 +44,20 @@ def send_extremes(rig: Rig, progress: Callable[[str], None] = lambda what: None)
     BrokenPromiseError
         If the finger does not push afterwards.
     """
-    finger = rig.finger
-    joints = rig.observer.hear(JointState, finger.name('joint_states'))
+    finger = bench.finger
+    joints = bench.observer.hear(JointState, finger.name('joint_states'))
     finger.push()
-    rig.observer.wait_for(lambda: joints, 'joint states')
+    bench.observer.wait_for(lambda: joints, 'joint states')
     finger.nodes.start('active_sensing', {})
     state = finger.name('push_controller/state')
-    rig.observer.wait_for(
-        lambda: rig.observer.node.count_subscribers(state) > 1, 'active_sensing to listen'
+    bench.observer.wait_for(
+        lambda: bench.observer.node.count_subscribers(state) > 1, 'active_sensing to listen'
     )
     topics: dict[str, Any] = {
-        'contact': finger.contacts[-1].message,
-        'tactile': finger.tactile[-1].message,
-        'joint_states': joints[-1].message,
-        'push_controller/state': finger.states[-1].message,
+        'contact': finger.contacts[-1],
+        'tactile': finger.tactile[-1],
+        'joint_states': joints[-1],
+        'push_controller/state': finger.states[-1],
         'finger/cmd_vel': TwistStamped(),
     }
     sent = 0
@@ -65,17 +65,17 @@ def send_extremes(rig: Rig, progress: Callable[[str], None] = lambda what: None)
         for what, message in extremes(valid):
             progress(f'{topic}: {what}')
             finger.publish(topic, message)
-            rig.observer.spin(PAUSE)
+            bench.observer.spin(PAUSE)
             sent += 1
             if sent % CLOSE_LOOK == 0:
-                _look(rig, f'{topic}: {what}')
-        _look(rig, topic)
-    rig.observer.spin(1.0)
+                _look(bench, f'{topic}: {what}')
+        _look(bench, topic)
+    bench.observer.spin(1.0)
     finger.turn()
     if finger.reason() in HELD:
         finger.resume()
     finger.wait_until_moving(10.0)
-    _look(rig, 'at the end')
+    _look(bench, 'at the end')
     return sent
 
 
@@ -87,10 +87,10 @@ def _stamped(message: Any) -> Any:
     return fresh
 
 
-def _look(rig: Rig, after: str) -> None:
+def _look(bench: Bench, after: str) -> None:
     """Raise `FuzzError` if a node has ended, thrown or moved by what is no number."""
-    found = rig.complaints()
-    if not all(math.isfinite(field(h.message, 'v_x')) for h in rig.finger.truth[-100:]):
+    found = bench.complaints()
+    if not all(math.isfinite(field(m, 'v_x')) for m in bench.finger.truth[-100:]):
         found.append('the finger moves at no finite velocity')
     if found:
         raise FuzzError(f'after {after}: {"; ".join(found)}')

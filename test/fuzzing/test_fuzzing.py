@@ -16,7 +16,7 @@ from sensor_msgs.msg import JointState
 
 import fuzzing.chain
 from faults.promise import PLAIN
-from faults.table import start_rig
+from faults.table import start_bench
 from fuzzing.chain import Chain, FuzzError, run
 from fuzzing.messages import extremes
 from fuzzing.mutation import mutated_input
@@ -131,11 +131,11 @@ def test_every_field_goes_to_its_extremes(message, fields):
 
 
 def test_real_nodes_bear_every_field_at_its_extremes():
-    rig = start_rig(PLAIN)
+    bench = start_bench(PLAIN)
     try:
-        assert send_extremes(rig) > 200
+        assert send_extremes(bench) > 200
     finally:
-        assert rig.close() == []
+        assert bench.close() == []
 
 
 @pytest.fixture

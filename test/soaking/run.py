@@ -14,12 +14,11 @@ from pathlib import Path
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from faults.messages import field, seconds
-from faults.observer import Observer
+from faults.observer import FaultObserver
 from faults.parameter_rows import value_of
 from faults.promise import BrokenPromiseError
 from tactile_push.control import HELD, PUSHING, STATES, STOP_REASONS, STOPPED
-from tactile_push.testing.processes import NodeProcesses
+from tactile_push.testing import NodeProcesses, field, seconds
 
 from .episodes import DESIRED, Episode, episodes, next_desired
 from .report import Report
@@ -84,7 +83,7 @@ class Soak:
             tempfile.TemporaryDirectory(prefix='tactile_push_soak_') as folder,
             NodeProcesses(Path(folder)) as self._nodes,
         ):
-            self._observer = Observer(self._nodes.domain, 'soak')
+            self._observer = FaultObserver(self._nodes.domain, 'soak')
             try:
                 self._start_nodes(f'{folder}/sensor')
                 begin = time.monotonic()
@@ -105,7 +104,7 @@ class Soak:
         """Simulated time since the first tick, of all plants together [s]."""
         if self._state is None:
             return self._before
-        return self._before + seconds(self._state.header.stamp) - self._start
+        return self._before + seconds(self._state) - self._start
 
     def _start_nodes(self, device: str) -> None:
         simulated = {'use_sim_time': True}
@@ -128,10 +127,10 @@ class Soak:
         """Count what a tick tells."""
         report, before = self.report, self._state
         self._heard_at = time.monotonic()
-        stamp = seconds(state.header.stamp)
+        stamp = seconds(state)
         if before is None:
             self._start = stamp
-        elif stamp < seconds(before.header.stamp):  # the time of another plant
+        elif stamp < seconds(before):  # the time of another plant
             self._before = self._now
             self._start = stamp
         self._state = state

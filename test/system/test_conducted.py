@@ -7,17 +7,18 @@ from pathlib import Path
 from geometry_msgs.msg import PoseStamped
 from sensor_msgs.msg import JointState
 
-from support.live import CONFIG, PATIENCE, Observer
 from tactile_push.bags.states import read_states
-from tactile_push.testing.processes import NodeProcesses
+from tactile_push.parameters.config_file import config_file
+from tactile_push.testing import NodeProcesses, Observer
+from tactile_push.testing.observer import PATIENCE
 
 
 def test_controller_starts_when_the_object_is_sensed(
     nodes: NodeProcesses, observer: Observer, tmp_path: Path
 ):
-    contacts = observer.collect(PoseStamped, 'contact')
-    states = observer.collect(JointState, 'push_controller/state')
-    config, simulated = CONFIG / 'block.yaml', {'use_sim_time': True}
+    contacts = observer.hear(PoseStamped, 'contact')
+    states = observer.hear(JointState, 'push_controller/state')
+    config, simulated = config_file('block.yaml'), {'use_sim_time': True}
     device, bag = {'device': str(tmp_path / 'sensor')}, tmp_path / 'bag'
     timing = {'sensor_rate': 20.0, 'publish_clock': True, 'real_time_factor': 20.0}
     nodes.start('sim_plant', {**device, **timing}, config=config)

@@ -21,9 +21,8 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from support.live import Observer, field, seconds
 from tactile_push.control import STATES, STOP_REASONS
-from tactile_push.testing.processes import NodeProcesses
+from tactile_push.testing import NodeProcesses, Observer, field, seconds
 
 PERIOD, CONTACT_TIMEOUT = 0.1, 0.3
 
@@ -43,9 +42,9 @@ class World:
         self._contacts = node.create_publisher(PoseStamped, 'contact', 10)
         self._joint_states = node.create_publisher(JointState, 'joint_states', 10)
         self._clock = node.create_publisher(Clock, '/clock', 10)
-        self.commands = observer.collect(TwistStamped, 'finger/cmd_vel')
-        self.states = observer.collect(JointState, 'push_controller/state')
-        self.diagnostics = observer.collect(DiagnosticArray, '/diagnostics')
+        self.commands = observer.hear(TwistStamped, 'finger/cmd_vel')
+        self.states = observer.hear(JointState, 'push_controller/state')
+        self.diagnostics = observer.hear(DiagnosticArray, '/diagnostics')
         steady = NodeClock(clock_type=ClockType.STEADY_TIME)
         node.create_timer(0.02, self._say, clock=steady)
 
@@ -220,7 +219,7 @@ def test_another_commander_stops_the_finger_until_it_is_resumed(world: World, re
 
 def test_two_controllers_notice_one_another_and_both_rest(world: World, observer: Observer):
     world.start()
-    second = observer.collect(JointState, 'second/state')
+    second = observer.hear(JointState, 'second/state')
     world.nodes.start(
         'push_controller',
         name='second',

@@ -15,8 +15,7 @@ from rcl_interfaces.srv import SetParameters
 from rclpy.time import Time
 from sensor_msgs.msg import JointState
 
-from support.live import Observer
-from tactile_push.testing.processes import NodeProcesses
+from tactile_push.testing import NodeProcesses, Observer
 
 AHEAD = math.pi / 2.0
 JOINTS = ['proximal_joint', 'distal_joint']
@@ -29,8 +28,8 @@ class Geometry:
 
     def __init__(self, nodes: NodeProcesses, observer: Observer, **parameters: Any) -> None:
         self.observer = observer
-        self.contacts = observer.collect(PoseStamped, 'contact')
-        self.reports = observer.collect(DiagnosticArray, '/diagnostics')
+        self.contacts = observer.hear(PoseStamped, 'contact')
+        self.reports = observer.hear(DiagnosticArray, '/diagnostics')
         self.sensor = observer.node.create_publisher(JointState, 'tactile', 100)
         self.joints = observer.node.create_publisher(JointState, 'joint_states', 100)
         self.now = 10**9 * 1000  # [ns]

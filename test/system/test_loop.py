@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from support.live import Rig, field
 from tactile_push.control import STATES, PushLaw, settle_step
 from tactile_push.simulation import experiment, paper_block, paper_disk
+from tactile_push.testing import Rig, field
 
 STEPS = 260
 

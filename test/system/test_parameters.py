@@ -7,8 +7,7 @@ import pytest
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
 
-from support.live import Observer
-from tactile_push.testing.processes import NodeProcesses
+from tactile_push.testing import NodeProcesses, Observer
 
 
 def double(value: float) -> ParameterValue:

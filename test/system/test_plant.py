@@ -10,13 +10,10 @@ import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, TwistStamped
-from rcl_interfaces.srv import SetParameters
-from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
 
-from support.live import Observer, Rig, field, seconds
 from tactile_push.control import settle_step
-from tactile_push.testing.processes import NodeProcesses
+from tactile_push.testing import NodeProcesses, Observer, Rig, field, seconds
 
 WELL, WARN = DiagnosticStatus.OK, DiagnosticStatus.WARN
 
@@ -26,8 +23,8 @@ class Plant:
 
     def __init__(self, nodes: NodeProcesses, observer: Observer, device: str, **settings: Any):
         self.observer = observer
-        self.truth = observer.collect(JointState, 'ground_truth/state')
-        self.said = observer.collect(DiagnosticArray, '/diagnostics')
+        self.truth = observer.hear(JointState, 'ground_truth/state')
+        self.said = observer.hear(DiagnosticArray, '/diagnostics')
         self.commands = observer.node.create_publisher(TwistStamped, 'finger/cmd_vel', 10)
         nodes.start('sim_plant', {'device': device, **settings})
         observer.wait_for(
@@ -52,7 +49,7 @@ class Plant:
         return field(self.truth[-1], name)
 
     def set(self, **values: Any) -> list[Any]:
-        return set_parameters(self.observer, values)
+        return self.observer.set_parameters('sim_plant', **values)
 
     def report(self) -> tuple[bytes, str, dict[str, str]]:
         """Give the level, the message and the values that it told last."""
@@ -61,12 +58,6 @@ class Plant:
             return b'', '', {}
         status = statuses[-1]
         return status.level, status.message, {v.key: v.value for v in status.values}
-
-
-def set_parameters(observer: Observer, values: dict[str, Any]) -> list[Any]:
-    messages = [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
-    request = SetParameters.Request(parameters=messages)
-    return observer.call(SetParameters, 'sim_plant/set_parameters', request).results
 
 
 @pytest.fixture
@@ -180,7 +171,7 @@ def test_finger_stops_at_its_workspace_and_says_so(plant: Plant):
 
 
 def test_hardware_like_loop_settles_and_simulated_time_goes_on(rig: Rig, observer: Observer):
-    diagnostics = observer.collect(DiagnosticArray, '/diagnostics')
+    diagnostics = observer.hear(DiagnosticArray, '/diagnostics')
     rig.start(
         sensor_rate=50.0,
         servo_time_constant=0.1,
@@ -208,7 +199,7 @@ def test_hardware_like_loop_settles_and_simulated_time_goes_on(rig: Rig, observe
 def test_time_goes_on_without_any_contact(rig: Rig, observer: Observer, fault: dict[str, float]):
     rig.start()
     rig.wait_until_moving()
-    assert set_parameters(observer, fault)[0].successful
+    assert observer.set_parameters('sim_plant', **fault)[0].successful
     rig.wait_until_resting()
     later = seconds(rig.truth[-1]) + 3.0
     observer.wait_for(lambda: seconds(rig.truth[-1]) > later, 'time to pass')

@@ -22,12 +22,13 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Int64, String
 from std_srvs.srv import SetBool, Trigger
 
-from support.live import CONFIG, PATIENCE, Observer, field, seconds
 from tactile_push.bags import BagWriter
 from tactile_push.bags.reader import BagReader
 from tactile_push.control import PUSHING, STATES
+from tactile_push.parameters.config_file import config_file
 from tactile_push.recording.recorder import Recorder
-from tactile_push.testing.processes import NodeProcesses
+from tactile_push.testing import NodeProcesses, Observer, field, seconds
+from tactile_push.testing.observer import PATIENCE
 
 STEPS = 80
 PUSHED = float(STATES.index(PUSHING))
@@ -48,7 +49,7 @@ PATIENT = {
 def rig_bag(tmp_path_factory) -> Path:
     """Return a bag of the simulated rig, recorded on simulated time."""
     folder = tmp_path_factory.mktemp('rig')
-    device, config = str(folder / 'sensor'), CONFIG / 'block.yaml'
+    device, config = str(folder / 'sensor'), config_file('block.yaml')
     with NodeProcesses(folder) as nodes:
         plant = {'sensor_rate': 20.0, 'publish_clock': True, 'real_time_factor': 20.0}
         nodes.start('sim_plant', {'device': device, **plant}, config=config)
@@ -105,11 +106,11 @@ def times_of(diagnostics: list[DiagnosticArray]) -> list[tuple[str, int]]:
 def test_readings_and_joints_drive_geometry_and_controller_as_if_live(
     rig_bag: Path, nodes: NodeProcesses, observer: Observer, rate
 ):
-    contacts = observer.collect(PoseStamped, 'contact')
-    states = observer.collect(JointState, 'push_controller/state')
-    diagnostics = observer.collect(DiagnosticArray, '/diagnostics')
-    nodes.start('contact_geometry', SIMULATED, config=CONFIG / 'block.yaml')
-    nodes.start('push_controller', PATIENT, config=CONFIG / 'block.yaml')
+    contacts = observer.hear(PoseStamped, 'contact')
+    states = observer.hear(JointState, 'push_controller/state')
+    diagnostics = observer.hear(DiagnosticArray, '/diagnostics')
+    nodes.start('contact_geometry', SIMULATED, config=config_file('block.yaml'))
+    nodes.start('push_controller', PATIENT, config=config_file('block.yaml'))
     hearing = {'tactile': 1, 'joint_states': 2, 'contact': 2, '/clock': 2}
     observer.wait_for(
         lambda: all(observer.node.count_subscribers(t) >= n for t, n in hearing.items()),
@@ -181,8 +182,8 @@ def test_bag_of_a_played_bag_is_the_same(
 
 
 def test_pause_and_step_by_service(nodes: NodeProcesses, observer: Observer, tmp_path: Path):
-    heard = observer.collect(Int64, '/number')
-    diagnostics = observer.collect(DiagnosticArray, '/diagnostics')
+    heard = observer.hear(Int64, '/number')
+    diagnostics = observer.hear(DiagnosticArray, '/diagnostics')
     bag = write_numbers(tmp_path / 'bag', [0, 60_000, 120_000, 120_100])
     player = nodes.start('bag_player', {'bag': str(bag)})
     observer.wait_for(lambda: heard, 'the first message')
@@ -216,7 +217,7 @@ def test_pause_and_step_by_service(nodes: NodeProcesses, observer: Observer, tmp
 def test_signal_ends_the_player_in_silence(
     nodes: NodeProcesses, observer: Observer, tmp_path: Path, stop_signal, playing
 ):
-    heard = observer.collect(Int64, '/number')
+    heard = observer.hear(Int64, '/number')
     bag = write_numbers(tmp_path / 'bag', [0, 60_000])
     player = nodes.start('bag_player', {'bag': str(bag), 'start_paused': not playing})
     log = nodes.log('bag_player')
@@ -284,7 +285,7 @@ def test_command_refuses_what_is_no_bag_in_one_line(tmp_path: Path):
 def test_command_on_a_terminal_pauses_steps_and_leaves_the_terminal_as_it_was(
     nodes: NodeProcesses, observer: Observer, tmp_path: Path
 ):
-    heard = observer.collect(Int64, '/left/number')
+    heard = observer.hear(Int64, '/left/number')
     bag = write_numbers(tmp_path / 'bag', [0, 60_000, 120_000])
     options = ['--start-paused', '--remap', 'number:=/left/number']
     pid, terminal = pty.fork()
@@ -331,8 +332,8 @@ def test_command_on_a_terminal_pauses_steps_and_leaves_the_terminal_as_it_was(
 def test_command_plays_what_it_is_told_and_ends(
     nodes: NodeProcesses, observer: Observer, tmp_path: Path
 ):
-    heard = observer.collect(Int64, '/number')
-    texts = observer.collect(String, '/text')
+    heard = observer.hear(Int64, '/number')
+    texts = observer.hear(String, '/text')
     with BagWriter(tmp_path / 'bag') as bag:
         bag.add_topic('/number', 'std_msgs/msg/Int64')
         bag.add_topic('/text', 'std_msgs/msg/String')

@@ -21,8 +21,8 @@ from mcap.reader import NonSeekingReader, make_reader
 from mcap_ros2.decoder import DecoderFactory
 from sensor_msgs.msg import JointState
 
-from support.live import CONFIG, Observer
-from tactile_push.testing.processes import NodeProcesses
+from tactile_push.parameters.config_file import config_file
+from tactile_push.testing import NodeProcesses, Observer
 
 
 class Sender:
@@ -77,7 +77,7 @@ def test_interrupted_recorder_finishes_its_bag(
     nodes: NodeProcesses, observer: Observer, sender: Sender, tmp_path: Path, signum: int
 ):
     bag = tmp_path / 'bag'
-    diagnostics = observer.collect(DiagnosticArray, '/diagnostics')
+    diagnostics = observer.hear(DiagnosticArray, '/diagnostics')
     process = nodes.start('bag_recorder', {'output': str(bag)})
     sender.wait_until_heard()
     sender.send(300)
@@ -152,11 +152,11 @@ def test_simulated_time_and_parameters_of_the_rig(
     nodes.start('bag_recorder', {'output': str(bag), 'use_sim_time': True})
     plant = {'device': device, 'publish_clock': True, 'real_time_factor': 10.0}
     simulated = {'use_sim_time': True}
-    nodes.start('sim_plant', plant, config=CONFIG / 'block.yaml')
+    nodes.start('sim_plant', plant, config=config_file('block.yaml'))
     nodes.start('sensor_driver', {'device': device, **simulated})
-    nodes.start('contact_geometry', simulated, config=CONFIG / 'block.yaml')
-    nodes.start('push_controller', {'kp': 0.07, **simulated}, config=CONFIG / 'block.yaml')
-    commands = observer.collect(JointState, 'push_controller/state')
+    nodes.start('contact_geometry', simulated, config=config_file('block.yaml'))
+    nodes.start('push_controller', {'kp': 0.07, **simulated}, config=config_file('block.yaml'))
+    commands = observer.hear(JointState, 'push_controller/state')
     mcap = bag / 'bag_0.mcap'
     nodes_with_parameters = [b'"push_controller"', b'"sim_plant"', b'"contact_geometry"']
     observer.wait_for(

@@ -12,19 +12,19 @@ from rcl_interfaces.srv import SetParameters
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from support.live import CONFIG, Observer, field, seconds
 from tactile_push.bags import BagReader
 from tactile_push.cli import main
 from tactile_push.control import PUSHING, STATES, STOP_REASONS, STOPPED
+from tactile_push.parameters.config_file import config_file
 from tactile_push.replay import replay
-from tactile_push.testing.processes import NodeProcesses
+from tactile_push.testing import NodeProcesses, Observer, field, seconds
 
 
 def test_bag_of_an_eventful_run_replays_to_the_bit(
     nodes: NodeProcesses, observer: Observer, tmp_path: Path
 ):
-    states = observer.collect(JointState, 'push_controller/state')
-    sensed = observer.collect(JointState, 'active_sensing/state')
+    states = observer.hear(JointState, 'push_controller/state')
+    sensed = observer.hear(JointState, 'active_sensing/state')
     device = {'device': str(tmp_path / 'sensor')}
     bag = tmp_path / 'bag'
 
@@ -38,11 +38,11 @@ def test_bag_of_an_eventful_run_replays_to_the_bit(
 
         observer.wait_for(in_a_row, f'{count} ticks {state}')
 
-    nodes.start('sim_plant', {**device, 'sensor_noise': 0.002}, config=CONFIG / 'block.yaml')
+    nodes.start('sim_plant', {**device, 'sensor_noise': 0.002}, config=config_file('block.yaml'))
     nodes.start('sensor_driver', device)
-    nodes.start('contact_geometry', config=CONFIG / 'block.yaml')
-    nodes.start('push_controller', config=CONFIG / 'block.yaml')
-    nodes.start('active_sensing', config=CONFIG / 'block.yaml')
+    nodes.start('contact_geometry', config=config_file('block.yaml'))
+    nodes.start('push_controller', config=config_file('block.yaml'))
+    nodes.start('active_sensing', config=config_file('block.yaml'))
     wait_for_ticks(5, PUSHING)
     observer.wait_for(lambda: sensed, 'the object to be sensed')
     recorder = nodes.start('bag_recorder', {'output': str(bag)})
@@ -75,7 +75,7 @@ def test_bag_of_an_eventful_run_replays_to_the_bit(
     controller = nodes.running['push_controller']
     controller.send_signal(signal.SIGSTOP)
     ticks = len(states)
-    contacts = observer.collect(PoseStamped, 'contact')
+    contacts = observer.hear(PoseStamped, 'contact')
     observer.wait_for(  # the others go on, for longer than three periods
         lambda: contacts and seconds(contacts[-1]) - seconds(states[-1]) > 0.8, 'time to pass'
     )

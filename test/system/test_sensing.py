@@ -13,10 +13,10 @@ from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
-from support.live import CONFIG, Observer, Rig, field, seconds
 from tactile_push.estimation import CONTRADICTIONS
+from tactile_push.parameters.config_file import config_file
 from tactile_push.pipeline.orientation import yaw_of_quaternion
-from tactile_push.testing.processes import NodeProcesses
+from tactile_push.testing import NodeProcesses, Observer, Rig, field, seconds
 
 NOISE = 0.0035  # of the sensor [rad]
 PERIOD = 0.1
@@ -28,15 +28,15 @@ class Sensing:
     def __init__(self, nodes: NodeProcesses, observer: Observer) -> None:
         self._nodes = nodes
         self._observer = observer
-        self.states = observer.collect(JointState, 'active_sensing/state')
-        self.poses = observer.collect(PoseWithCovarianceStamped, 'object_pose')
-        self.true_poses = observer.collect(PoseStamped, 'ground_truth/object_pose')
-        self._diagnostics = observer.collect(DiagnosticArray, '/diagnostics')
+        self.states = observer.hear(JointState, 'active_sensing/state')
+        self.poses = observer.hear(PoseWithCovarianceStamped, 'object_pose')
+        self.true_poses = observer.hear(PoseStamped, 'ground_truth/object_pose')
+        self._diagnostics = observer.hear(DiagnosticArray, '/diagnostics')
 
     def start(self, config: str = 'block', **parameters: Any) -> None:
         """Start the node and wait until it can hear the controller."""
         settings = {'use_sim_time': True, 'noise': NOISE, **parameters}
-        self._nodes.start('active_sensing', settings, config=CONFIG / f'{config}.yaml')
+        self._nodes.start('active_sensing', settings, config=config_file(f'{config}.yaml'))
         self._observer.wait_for(
             lambda: self._observer.node.count_subscribers('push_controller/state'),
             'active_sensing to listen',
@@ -68,7 +68,7 @@ def sensing(nodes: NodeProcesses, observer: Observer) -> Sensing:
 
 
 def test_block_is_located_while_it_is_turned(sensing: Sensing, rig: Rig, observer: Observer):
-    markers = observer.collect(MarkerArray, 'active_sensing/markers')
+    markers = observer.hear(MarkerArray, 'active_sensing/markers')
     sensing.start()
     rig.start(sensor_noise=NOISE)
     observer.wait_for(lambda: len(sensing.states) > 250, '250 control periods')
@@ -179,7 +179,7 @@ def test_lost_contact_is_forgotten_and_found_again(
     assert field(lost, 'd_upper') - field(lost, 'd_lower') > 0.045
     seen = len(sensing.states)
     nodes.running['sensor_driver'].wait()
-    rig.start_driver()
+    rig.start_node('sensor_driver', {'use_sim_time': True})
     observer.wait_for(
         lambda: any(field(s, 'readings') > 5 for s in sensing.states[seen:]), 'new readings'
     )

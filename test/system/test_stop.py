@@ -8,8 +8,8 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from lifecycle_msgs.msg import Transition
 
-from support.live import Observer, Rig, field, seconds
 from tactile_push.control import PUSHING, STATES, STOPPED
+from tactile_push.testing import Observer, Rig, field, seconds
 
 CONTROL_PERIOD, CONTACT_TIMEOUT, COMMAND_TIMEOUT = 0.1, 0.3, 0.5
 PUSHED, STOPPED_ = float(STATES.index(PUSHING)), float(STATES.index(STOPPED))
@@ -22,7 +22,7 @@ def levels(arrays: list[DiagnosticArray], node: str) -> list[bytes]:
 def test_killed_driver_stops_the_finger_and_a_new_one_lets_it_go_on_without_a_kick(
     rig: Rig, observer: Observer
 ):
-    diagnostics = observer.collect(DiagnosticArray, '/diagnostics')
+    diagnostics = observer.hear(DiagnosticArray, '/diagnostics')
     rig.start()
     rig.wait_until_moving()
     assert field(rig.states[-1], 'state') == PUSHED
@@ -44,7 +44,7 @@ def test_killed_driver_stops_the_finger_and_a_new_one_lets_it_go_on_without_a_ki
 
     silent = len(rig.commands)
     contacts = len(rig.contacts)
-    rig.start_driver()
+    rig.start_node('sensor_driver', {'use_sim_time': True})
     observer.wait_for(lambda: len(rig.contacts) > contacts + 20, 'contacts')
     rig.wait_until_moving()
     resumed = next(m for m in rig.states if seconds(m) > stopped and field(m, 'state') == PUSHED)

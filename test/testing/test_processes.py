@@ -33,9 +33,7 @@ def wait_for(condition):
 
 def start_program(nodes, name, program):
     """Start a Python program in place of a node, which costs less time."""
-    with nodes.log(name).open('ab') as log:
-        nodes.running[name] = nodes._spawn([sys.executable, '-c', program], log)
-    return nodes.running[name]
+    return nodes.run(name, [sys.executable, '-c', program])
 
 
 def test_environment_keeps_the_nodes_to_themselves(tmp_path, monkeypatch):

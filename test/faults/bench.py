@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""The rig for one or more rows: nodes as processes, an observer, a clock, and what must not be."""
+"""What one or more rows need: fingers with their nodes, an observer, a clock, and watches."""
 
 import os
 import signal
@@ -13,11 +13,11 @@ from rclpy.clock import Clock as NodeClock
 from rclpy.clock_type import ClockType
 from rosgraph_msgs.msg import Clock
 
-from tactile_push.testing.processes import NodeProcesses
+from tactile_push.testing import NodeProcesses
 
 from .checks import Watch
 from .finger import CHAIN, Finger
-from .observer import Observer
+from .observer import FaultObserver
 from .promise import BrokenPromiseError, Setup
 
 TICK = 0.01  # of the tool's own clock [s]
@@ -29,11 +29,11 @@ class OwnClock:
 
     Parameters
     ----------
-    observer : Observer
+    observer : FaultObserver
         Its node does it.
     """
 
-    def __init__(self, observer: Observer) -> None:
+    def __init__(self, observer: FaultObserver) -> None:
         self._offset = 1000.0 - time.monotonic()
         self._publisher = observer.node.create_publisher(Clock, '/clock', 10)
         observer.node.create_timer(
@@ -54,7 +54,7 @@ class OwnClock:
         self._publisher.publish(message)
 
 
-class Rig:
+class Bench:
     """Nodes, alone in their ROS domain, and what is measured with them.
 
     Parameters
@@ -66,7 +66,7 @@ class Rig:
     ----------
     nodes : NodeProcesses
         The processes.
-    observer : Observer
+    observer : FaultObserver
         The tool's own node.
     fingers : list of Finger
         The fingers that the setup asks for, running and with an active controller.
@@ -81,7 +81,7 @@ class Rig:
         self.reaction: float | None = None
         self._folder = tempfile.TemporaryDirectory(prefix='tactile_push_faults_')
         self.nodes = NodeProcesses(Path(self._folder.name))
-        self.observer = Observer(self.nodes.domain)
+        self.observer = FaultObserver(self.nodes.domain)
         self.clock = OwnClock(self.observer) if setup.own_clock else None
         self.fingers = [
             Finger(namespace, setup, self.nodes, self.observer) for namespace in setup.fingers
@@ -97,7 +97,7 @@ class Rig:
         """Start all nodes and the belt."""
         for finger in self.fingers:
             for node in CHAIN:
-                finger.start(node)
+                finger.begin(node)
         for finger in self.fingers:
             finger.activate()
 

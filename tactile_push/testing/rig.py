@@ -1,0 +1,181 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""The simulated plant with the nodes around it, and what they say."""
+
+import subprocess
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from geometry_msgs.msg import PoseStamped, TwistStamped
+from lifecycle_msgs.msg import Transition
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from sensor_msgs.msg import JointState
+
+from tactile_push.control import STATES, STOP_REASONS
+from tactile_push.parameters.config_file import config_file
+from tactile_push.testing.observer import Heard, Observer, field
+from tactile_push.testing.processes import NodeProcesses
+
+# Ten times as fast as real time if the machine can: the plant's time waits for contact and command.
+TIMING = {'sensor_rate': 20.0, 'publish_clock': True, 'real_time_factor': 10.0}
+MOVING = 1e-4  # [m/s]
+
+
+class Rig:
+    """Belt, object, finger and sensor as `sim_plant` simulates them, and the nodes around it.
+
+    Parameters
+    ----------
+    nodes : NodeProcesses
+        Starts the nodes.
+    observer : Observer
+        Hears them.
+    device : str
+        Where the simulated sensor is: a path for a pseudo terminal, or socket://host:port.
+    namespace : str, optional
+        Namespace of the nodes, '' for the root.
+
+    Attributes
+    ----------
+    contacts, commands, states, tactile, truth : Heard
+        Messages so far of `contact`, `finger/cmd_vel`, `push_controller/state`, `tactile` and
+        `ground_truth/state`.
+    """
+
+    def __init__(
+        self, nodes: NodeProcesses, observer: Observer, device: str, namespace: str = ''
+    ) -> None:
+        self.nodes = nodes
+        self.observer = observer
+        self.namespace = namespace
+        self._device = device
+        self._config = config_file('block.yaml')
+        self.commands: Heard[TwistStamped] = observer.hear(
+            TwistStamped, self.name('finger/cmd_vel')
+        )
+        self.contacts: Heard[PoseStamped] = observer.hear(PoseStamped, self.name('contact'))
+        self.states: Heard[JointState] = observer.hear(
+            JointState, self.name('push_controller/state')
+        )
+        self.tactile: Heard[JointState] = observer.hear(JointState, self.name('tactile'))
+        self.truth: Heard[JointState] = observer.hear(JointState, self.name('ground_truth/state'))
+
+    def name(self, name: str) -> str:
+        """Return the full name of a node, topic or service of this rig."""
+        return f'/{self.namespace}/{name}' if self.namespace else f'/{name}'
+
+    def process(self, node: str) -> str:
+        """Return the name that a node's process has in `nodes`."""
+        return f'{self.namespace}.{node}' if self.namespace else node
+
+    def start(self, config: str | Path = 'block', *, controller: bool = True, **plant: Any) -> None:
+        """Start the nodes on simulated time and wait until they hear each other.
+
+        The belt stands until the first command, so every run begins at the same angle.
+
+        Parameters
+        ----------
+        config : str or path, optional
+            Name of one of the package's configurations, or a parameter file.
+        controller : bool, optional
+            Whether to start `push_controller`; without it the test's own controller moves the
+            finger.
+        **plant : object
+            Parameters of `sim_plant`, such as the faults of the sensor.
+        """
+        self._config = config if isinstance(config, Path) else config_file(f'{config}.yaml')
+        self.start_node('sim_plant', TIMING | plant)
+        simulated = {'use_sim_time': True}
+        self.start_node('sensor_driver', simulated)
+        self.start_node('contact_geometry', simulated)
+        hearing = {'contact': 2}
+        if controller:
+            self.start_node('push_controller', {'autostart': False, **simulated})
+            self._change_controller(Transition.TRANSITION_CONFIGURE)
+            hearing = {'contact': 3, 'finger/cmd_vel': 4, 'push_controller/state': 1}
+        self.observer.wait_for(
+            lambda: self.contacts and self.truth and self._heard_by(hearing),
+            'all nodes to hear each other',
+        )
+        if controller:
+            self._change_controller(Transition.TRANSITION_ACTIVATE)
+
+    def start_node(
+        self, node: str, parameters: Mapping[str, Any], arguments: tuple[str, ...] = ()
+    ) -> subprocess.Popen[bytes]:
+        """Start one of the package's nodes, at the rig's device and with its configuration.
+
+        Parameters
+        ----------
+        node : str
+            The node.
+        parameters : mapping of str to object
+            Parameters that take precedence over the configuration.
+        arguments : tuple of str, optional
+            More ROS arguments.
+
+        Returns
+        -------
+        subprocess.Popen
+            The process.
+        """
+        if node in ('sim_plant', 'sensor_driver'):
+            parameters = {'device': self._device, **parameters}
+        if self.namespace:
+            arguments += ('-r', f'__ns:=/{self.namespace}')
+        return self.nodes.start(
+            node, parameters, config=self._config, name=self.process(node), arguments=arguments
+        )
+
+    def add(self, node: Node) -> None:
+        """Run a test's own node in this process, on the rig's simulated time.
+
+        Parameters
+        ----------
+        node : rclpy.node.Node
+            The node, made after the rig. It works while the test waits.
+        """
+        node.set_parameters([Parameter('use_sim_time', value=True)])
+        self.observer.add(node)
+
+    def wait_for(self, condition: Callable[[], Any], what: str) -> Any:
+        """Wait until a condition holds, see `Observer.wait_for`."""
+        return self.observer.wait_for(condition, what)
+
+    def ground_truth(self, name: str) -> float:
+        """Return the newest value of `ground_truth/state` by its name, such as 'theta'."""
+        self.observer.wait_for(lambda: self.truth, 'the ground truth')
+        return field(self.truth[-1], name)
+
+    def state(self) -> str:
+        """Return the controller's newest state, '' before the first."""
+        return STATES[int(field(self.states[-1], 'state'))] if self.states else ''
+
+    def reason(self) -> str:
+        """Return why the controller has stopped, '' if it has not."""
+        return STOP_REASONS[int(field(self.states[-1], 'stop_reason'))]
+
+    def wait_until_moving(self) -> None:
+        """Wait until the finger has moved for a while."""
+        seen = len(self.truth)
+        self.observer.wait_for(
+            lambda: sum(abs(field(m, 'v_x')) > MOVING for m in self.truth[seen:]) > 10,
+            'the finger to move',
+        )
+
+    def wait_until_resting(self) -> None:
+        """Wait until the plant's finger has no velocity."""
+        seen = len(self.truth)
+        self.observer.wait_for(
+            lambda: self.truth[seen:] and self.ground_truth('v_x') == 0.0, 'the finger to stop'
+        )
+
+    def _change_controller(self, transition: int) -> None:
+        if not self.observer.change_state(self.name('push_controller'), transition):
+            raise RuntimeError(f'push_controller refused transition {transition}')
+
+    def _heard_by(self, subscribers: Mapping[str, int]) -> bool:
+        count = self.observer.node.count_subscribers
+        return all(count(self.name(topic)) >= n for topic, n in subscribers.items())
