@@ -7,19 +7,21 @@ The plugin `tactile_push.testing.plugin` has the fixtures `tactile_nodes`, `tact
 """
 
 import importlib
-from typing import TYPE_CHECKING, Any
+import typing
 
-if TYPE_CHECKING:
-    from tactile_push.testing.observer import Heard, Observer, field, seconds
+if typing.TYPE_CHECKING:
+    from tactile_push.testing.observer import Observer, field, seconds
     from tactile_push.testing.processes import NodeProcesses
     from tactile_push.testing.rig import Rig
 
-__all__ = ['Heard', 'NodeProcesses', 'Observer', 'Rig', 'field', 'seconds']
-MODULES = {'NodeProcesses': 'processes', 'Rig': 'rig'}
+__all__ = ['NodeProcesses', 'Observer', 'Rig', 'field', 'seconds']
+_MODULES = {'NodeProcesses': 'processes', 'Rig': 'rig'}
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> typing.Any:
     """Import a public name when it is asked for: pytest loads the plugin for every test."""
     if name not in __all__:
         raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
-    return getattr(importlib.import_module(f'{__name__}.{MODULES.get(name, "observer")}'), name)
+    module = importlib.import_module(f'{__name__}.{_MODULES.get(name, "observer")}')
+    globals()[name] = getattr(module, name)
+    return globals()[name]

@@ -149,7 +149,13 @@ class Observer:
         self._executor.spin_once(timeout_sec=TURN)
 
     def spin(self, seconds: float) -> None:
-        """Hear for a while of wall time [s]."""
+        """Hear for a while.
+
+        Parameters
+        ----------
+        seconds : float
+            For how long [s of wall time].
+        """
         end = time.monotonic() + seconds
         while (left := end - time.monotonic()) > 0.0:
             self._executor.spin_once(timeout_sec=left)
@@ -212,12 +218,38 @@ class Observer:
         return future.result()
 
     def change_state(self, node: str, transition: int) -> bool:
-        """Ask a managed node for a transition and return whether it was made."""
+        """Ask a managed node for a transition.
+
+        Parameters
+        ----------
+        node : str
+            Name of the node.
+        transition : int
+            Id of the transition, see lifecycle_msgs/Transition.
+
+        Returns
+        -------
+        bool
+            Whether the node made it.
+        """
         request = ChangeState.Request(transition=Transition(id=transition))
         return bool(self.call(ChangeState, f'{node}/change_state', request).success)
 
     def set_parameters(self, node: str, **values: Any) -> list[Any]:
-        """Set parameters of a node and return the result of each: `successful` and `reason`."""
+        """Set parameters of a node.
+
+        Parameters
+        ----------
+        node : str
+            Name of the node.
+        **values : object
+            New values by the parameters' names.
+
+        Returns
+        -------
+        list of SetParametersResult
+            The node's answer to each: `successful` and `reason`.
+        """
         parameters = [Parameter(n, value=v).to_parameter_msg() for n, v in values.items()]
         request = SetParameters.Request(parameters=parameters)
         return list(self.call(SetParameters, f'{node}/set_parameters', request).results)
@@ -229,7 +261,19 @@ class Observer:
 
 
 def field(message: Any, name: str) -> float:
-    """Return a JointState's position by its name.
+    """Return a position of a JointState message by its name.
+
+    Parameters
+    ----------
+    message : sensor_msgs.msg.JointState
+        The message.
+    name : str
+        The name.
+
+    Returns
+    -------
+    float
+        The position.
 
     Raises
     ------
@@ -240,6 +284,17 @@ def field(message: Any, name: str) -> float:
 
 
 def seconds(message: Any) -> float:
-    """Return a message's stamp as a number [s]."""
+    """Return the stamp of a message as a number.
+
+    Parameters
+    ----------
+    message : object
+        A message with a header.
+
+    Returns
+    -------
+    float
+        Its stamp [s].
+    """
     stamp = message.header.stamp
     return float(stamp.sec + stamp.nanosec * 1e-9)

@@ -127,7 +127,18 @@ class NodeProcesses:
         return self.running[name]
 
     def log(self, name: str) -> Path:
-        """Return the file that holds what a process has said."""
+        """Return the file that holds what a process has said.
+
+        Parameters
+        ----------
+        name : str
+            Name of the process.
+
+        Returns
+        -------
+        path
+            The file.
+        """
         return self._folder / f'{name}.log'
 
     def stop(self) -> None:

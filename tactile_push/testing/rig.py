@@ -3,7 +3,7 @@
 """The simulated plant with the nodes around it, and what they say."""
 
 import subprocess
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -63,11 +63,33 @@ class Rig:
         self.truth: Heard[JointState] = observer.hear(JointState, self.name('ground_truth/state'))
 
     def name(self, name: str) -> str:
-        """Return the full name of a node, topic or service of this rig."""
+        """Return the full name of a node, topic or service of this rig.
+
+        Parameters
+        ----------
+        name : str
+            Its name in the rig's namespace.
+
+        Returns
+        -------
+        str
+            The name with the namespace.
+        """
         return f'/{self.namespace}/{name}' if self.namespace else f'/{name}'
 
     def process(self, node: str) -> str:
-        """Return the name that a node's process has in `nodes`."""
+        """Return the key of a node's process in `nodes.running`.
+
+        Parameters
+        ----------
+        node : str
+            One of the package's nodes.
+
+        Returns
+        -------
+        str
+            The key.
+        """
         return f'{self.namespace}.{node}' if self.namespace else node
 
     def start(self, config: str | Path = 'block', *, controller: bool = True, **plant: Any) -> None:
@@ -140,21 +162,40 @@ class Rig:
         node.set_parameters([Parameter('use_sim_time', value=True)])
         self.observer.add(node)
 
-    def wait_for(self, condition: Callable[[], Any], what: str) -> Any:
-        """Wait until a condition holds, see `Observer.wait_for`."""
-        return self.observer.wait_for(condition, what)
-
     def ground_truth(self, name: str) -> float:
-        """Return the newest value of `ground_truth/state` by its name, such as 'theta'."""
+        """Return what only the simulator knows: the newest value of `ground_truth/state`.
+
+        Parameters
+        ----------
+        name : str
+            Name of the value, such as 'theta'.
+
+        Returns
+        -------
+        float
+            The value, in SI units; NaN for 'theta' and 'd' without contact.
+        """
         self.observer.wait_for(lambda: self.truth, 'the ground truth')
         return field(self.truth[-1], name)
 
     def state(self) -> str:
-        """Return the controller's newest state, '' before the first."""
+        """Return what the controller does.
+
+        Returns
+        -------
+        str
+            The newest of `tactile_push.control.STATES` that it said, '' before the first.
+        """
         return STATES[int(field(self.states[-1], 'state'))] if self.states else ''
 
     def reason(self) -> str:
-        """Return why the controller has stopped, '' if it has not."""
+        """Return why the controller has stopped.
+
+        Returns
+        -------
+        str
+            One of `tactile_push.control.STOP_REASONS`, '' if it has not stopped.
+        """
         return STOP_REASONS[int(field(self.states[-1], 'stop_reason'))]
 
     def wait_until_moving(self) -> None:

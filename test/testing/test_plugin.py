@@ -75,7 +75,7 @@ def test_controller_that_does_not_turn_the_edge_fails_with_the_condition_in_word
     pytest.importorskip('rclpy')
     example = re.search(r'```python\n(.*?)```', TUTORIAL.read_text(), re.DOTALL)[1]
     assert '-0.03 * theta' in example
-    example = example.replace('-0.03 * theta', '0.0').replace('wait_for(', 'observer.wait_for(')
+    example = example.replace('-0.03 * theta', '0.0')
     example = example.replace("to stay so')", "to stay so', patience=3.0)")
     (tmp_path / 'test_my_controller.py').write_text(example)
     done = run_pytest(tmp_path, '-q')
