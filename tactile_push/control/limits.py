@@ -94,7 +94,7 @@ class Limits:
 
 
 def plausible(theta: float) -> bool:
-    """Tell whether an angle can be that of an edge that the finger pushes.
+    """Return whether an angle can be that of an edge that the finger pushes.
 
     Parameters
     ----------

@@ -52,7 +52,7 @@ class Newest:
             self._arrived = value, stamp
 
     def fresh(self, now: float, timeout: float) -> bool:
-        """Tell whether a value has arrived since the last call that is not older than a timeout.
+        """Return whether a value has arrived since the last call that is not older than a timeout.
 
         Parameters
         ----------

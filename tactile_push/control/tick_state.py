@@ -11,7 +11,7 @@ from tactile_push.control.states import STATES, STOP_REASONS
 
 
 def tick_values(tick: Tick, law: PushLaw) -> dict[str, float]:
-    """Give all that one control period used and gave.
+    """Return all inputs and outputs of a control period by name.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def tick_values(tick: Tick, law: PushLaw) -> dict[str, float]:
 
 
 def tick_of(values: Mapping[str, float]) -> Tick:
-    """Give the control period that numbers tell of.
+    """Return the control period that numbers describe.
 
     Parameters
     ----------

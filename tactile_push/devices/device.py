@@ -61,18 +61,7 @@ class Device:
         self._fresh_from = math.inf
 
     def read(self) -> bytes:
-        """Wait a moment for bytes and take what is there.
-
-        Returns
-        -------
-        bytes
-            What came, b'' if nothing did.
-
-        Raises
-        ------
-        OSError
-            If the device is gone, whatever pyserial throws then.
-        """
+        """Wait a moment for bytes and return them; raise OSError if the device is gone."""
         try:
             began = time.monotonic()
             # Not asked again when it was just read empty: a wait for bytes still fits in their age.
@@ -94,16 +83,11 @@ class Device:
             raise _gone(error) from error
 
     def fresh(self) -> bool:
-        """Tell whether what was last read had come no longer than `LONGEST_AGE` before now.
+        """Return whether what was last read had come no longer than `LONGEST_AGE` before now.
 
         Bytes came after the moment at which nothing was left to read. If that is too long ago,
         because this process stood still or could not keep up, the device has to be read empty
         first, and for `SETTLING_TIME` more is expected from buffers further out.
-
-        Returns
-        -------
-        bool
-            False if it is of unknown age.
         """
         now = time.monotonic()
         if now - self._came_after > self.LONGEST_AGE:
@@ -157,25 +141,7 @@ def check_url(url: str) -> None:
 
 
 def socket_address(url: str) -> tuple[str, int]:
-    """Give the address in a URL of the form socket://host:port.
-
-    Parameters
-    ----------
-    url : str
-        The URL.
-
-    Returns
-    -------
-    host : str
-        Name or address.
-    port : int
-        0 to 65535.
-
-    Raises
-    ------
-    ValueError
-        If the URL is not of this form.
-    """
+    """Return the address in a URL of the form socket://host:port."""
     try:
         parts = urlsplit(url)
         host, port = parts.hostname, parts.port

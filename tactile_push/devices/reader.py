@@ -122,18 +122,7 @@ class SensorReader:
             self._thread = None
 
     def condition(self, patience: float) -> Condition:
-        """Judge how the sensor does.
-
-        Parameters
-        ----------
-        patience : float
-            Without a reading, a sentence or bytes for so long they are missing [s].
-
-        Returns
-        -------
-        Condition
-            What can be said of it.
-        """
+        """Judge how the sensor does; what does not come for `patience` [s] is missing."""
         now = time.monotonic()
 
         def recent(moment: float | None) -> bool:
@@ -154,13 +143,7 @@ class SensorReader:
         return Condition.NO_BYTES if self._last_sentence is None else Condition.SILENT
 
     def age(self) -> float:
-        """Give the time since the last reading of the present connection.
-
-        Returns
-        -------
-        float
-            Time [s]; NaN if there was none.
-        """
+        """Return the time since the last reading of this connection [s]; NaN if there was none."""
         last = self._last_reading
         return math.nan if last is None else time.monotonic() - last
 

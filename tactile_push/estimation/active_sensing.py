@@ -26,7 +26,7 @@ class Estimator(Protocol):
         ...
 
     def estimate(self) -> ObjectEstimate:
-        """Tell what is known."""
+        """Return what is known."""
         ...
 
     def reset(self) -> None:
@@ -131,7 +131,7 @@ class ActiveSensing:
         return self._estimator.push(theta, v_x, self._belt_speed, duration)
 
     def _touches(self, theta: float, silence: float) -> bool:
-        """Tell whether a pushed edge was felt a moment ago."""
+        """Return whether a pushed edge was felt a moment ago."""
         return abs(theta) < math.pi / 2.0 and 0.0 <= silence <= self._timeout
 
     def _reason_to_forget(self, stamp: float, theta: float, silence: float) -> str:

@@ -109,13 +109,7 @@ class Bank:
         self.start(math.nan)
 
     def start(self, theta: float) -> None:
-        """Begin, or begin anew, at the first reading.
-
-        Parameters
-        ----------
-        theta : float
-            The reading [rad].
-        """
+        """Begin, or begin anew, at the first reading of theta [rad]."""
         self._means, self._covariances, self._kinds, weights = (part.copy() for part in self._first)
         self._means[:, THETA] = theta
         self._covariances[:, THETA, THETA] = self._noise**2
@@ -130,15 +124,7 @@ class Bank:
         return np.exp(self._log_weights)
 
     def moments(self) -> tuple[Array, Array]:
-        """Give mean and covariance of all unknowns.
-
-        Returns
-        -------
-        mean : ndarray, shape (8,)
-            The mean.
-        covariance : ndarray, shape (8, 8)
-            The covariance.
-        """
+        """Return mean and covariance of all unknowns, shapes (8,) and (8, 8)."""
         weights = self.weights
         mean = weights @ self._means
         offsets = self._means - mean
@@ -146,33 +132,15 @@ class Bank:
         return mean, within + (offsets.T * weights) @ offsets
 
     def theta(self) -> tuple[float, float]:
-        """Give mean and variance of theta.
-
-        Returns
-        -------
-        mean, variance : float
-            Mean [rad] and variance [rad^2].
-        """
+        """Return mean and variance of theta [rad, rad^2]."""
         weights, means = self.weights, self._means[:, THETA]
         mean = float(weights @ means)
         return mean, float(weights @ (self._covariances[:, THETA, THETA] + (means - mean) ** 2))
 
     def interval(self, which: int, low: float, high: float) -> tuple[float, float]:
-        """Give the hull of the 95 % intervals under each kind of friction, within bounds.
+        """Return the hull of the 95 % intervals under each kind of friction, within bounds.
 
         Kinds whose evidence is far below the best one's are left out.
-
-        Parameters
-        ----------
-        which : int
-            The unknown.
-        low, high : float
-            The bounds.
-
-        Returns
-        -------
-        lower, upper : float
-            The interval.
         """
         weights = self.weights
         evidence = np.bincount(self._kinds, weights, minlength=3) / self._shares
@@ -187,15 +155,7 @@ class Bank:
         return min(max(lower, low), high), max(min(upper, high), low)
 
     def push(self, v_x: float, v_y: float, duration: float) -> None:
-        """Move the hypotheses on.
-
-        Parameters
-        ----------
-        v_x, v_y : float
-            Velocity of the finger relative to the support [m/s].
-        duration : float
-            How long [s].
-        """
+        """Move the hypotheses on by a push [m/s, m/s, s]."""
         liberties = self._liberties
         parts = math.ceil(math.hypot(v_x, v_y) * duration / LONGEST_PUSH)
         errors = ModelErrors(liberties.scatter, liberties.skew, liberties.drift)
@@ -211,18 +171,10 @@ class Bank:
             )
 
     def read(self, theta: float) -> float:
-        """Correct the hypotheses by a reading.
+        """Correct the hypotheses by a reading of theta [rad].
 
-        Parameters
-        ----------
-        theta : float
-            The reading [rad].
-
-        Returns
-        -------
-        float
-            Logarithm of its probability density, and of the contact being still on the edge
-            [1/rad].
+        Returned is the logarithm of the probability density of the reading and of the contact's
+        being still on the edge [1/rad].
         """
         density = hypotheses.correct(
             self._means,

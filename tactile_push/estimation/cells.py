@@ -232,20 +232,7 @@ def push_cells(cells: Array, push: Push, bounds: Bounds) -> int:
 
 @compiled
 def cut_cells(cells: Array, theta_low: float, theta_high: float) -> int:
-    """Cut off what a reading excludes.
-
-    Parameters
-    ----------
-    cells : ndarray, shape (H, 8)
-        The cells, changed; those that are left come first.
-    theta_low, theta_high : float
-        Bounds that the reading sets to theta [rad].
-
-    Returns
-    -------
-    int
-        How many are left.
-    """
+    """Cut off what a reading excludes [rad]; move the rest to the front and return its number."""
     left = 0
     for h in range(len(cells)):
         low, high = max(cells[h, THETA_LOW], theta_low), min(cells[h, THETA_HIGH], theta_high)
@@ -258,25 +245,9 @@ def cut_cells(cells: Array, theta_low: float, theta_high: float) -> int:
 
 @compiled
 def split_cells(cells: Array, count: int, l: float, r: float, theta_0: float) -> int:
-    """Halve every cell across the side that says least about the turning rate.
+    """Halve each of the first `count` cells across the side that says least about the turning rate.
 
-    Parameters
-    ----------
-    cells : ndarray, shape (H, 8)
-        The cells, of which the first ones are in use; twice as many have room.
-    count : int
-        How many are in use.
-    l : float
-        Distance from the edge to the centre of mass [m].
-    r : float
-        Radius of the finger's disk [m].
-    theta_0 : float
-        The first reading [rad].
-
-    Returns
-    -------
-    int
-        How many are in use now.
+    There must be room for twice as many, which is returned.
     """
     for h in range(count):
         cell = cells[h]

@@ -13,6 +13,7 @@ from tactile_push.estimation.guaranteed import GuaranteedSet, ModelBounds
 from tactile_push.estimation.hypotheses import ALPHA, LOG_C, THETA, D, L, R
 from tactile_push.estimation.prior import Prior, friction
 from tactile_push.mechanics.compiled import Array
+from tactile_push.paper import FINGER_RADIUS
 
 OF_POSE = (THETA, D, L, R)
 NOISE_BOUND = 5.0  # largest error of a reading for what is guaranteed, in its deviations
@@ -128,6 +129,14 @@ class ContactEstimator:
     ------
     ValueError
         If a number is out of its range.
+
+    References
+    ----------
+    K. M. Lynch, H. Maekawa and K. Tanie, "Manipulation and active sensing by pushing using
+    tactile feedback", IROS 1992, Section III.
+    I. Arasaratnam and S. Haykin, "Cubature Kalman filters", IEEE Transactions on Automatic Control
+    54 (6), 2009.
+    E. S. Page, "Continuous inspection schemes", Biometrika 41, 1954: the test for contradictions.
     """
 
     def __init__(
@@ -135,7 +144,7 @@ class ContactEstimator:
         prior: Prior,
         noise: float,
         *,
-        radius: float = 0.0135,
+        radius: float = FINGER_RADIUS,
         radius_sigma: float = 0.0,
         outlier: float = 0.001,
         liberties: Liberties | None = None,
@@ -225,7 +234,7 @@ class ContactEstimator:
         return self._guaranteed is not None and self._guaranteed.empty
 
     def estimate(self) -> Estimate:
-        """Tell what is known.
+        """Return what is known.
 
         Returns
         -------
@@ -312,7 +321,7 @@ class ContactEstimator:
 
 
 def _liberties(slenderness: float) -> Liberties:
-    """Give the liberties of an object; a slender one's motion and force agree less."""
+    """Return the liberties of an object; a slender one's motion and force agree less."""
     liberties, log = Liberties(), math.log(slenderness)
     return replace(
         liberties,
@@ -322,7 +331,7 @@ def _liberties(slenderness: float) -> Liberties:
 
 
 def _bounds(slenderness: float, noise: float) -> ModelBounds:
-    """Give the bounds of an object that resists turning by the direction of its motion.
+    """Return the bounds of an object that resists turning by the direction of its motion.
 
     The ratio of most and least turn grows by the root of the slenderness.
     """

@@ -22,20 +22,6 @@ class Contenders:
     One that has become too unlikely, or that the readings contradict, is given up. When none is
     left all begin anew with the last reading, and are believed again when readings have agreed for
     long enough (`contradictions.Probation`).
-
-    Parameters
-    ----------
-    estimators : sequence of ContactEstimator
-        The estimators.
-    prior : ndarray, shape (N,)
-        Their probabilities before any data.
-    noise : float
-        Standard deviation of the readings of theta [rad].
-
-    Attributes
-    ----------
-    weights : ndarray, shape (N,)
-        Their probabilities.
     """
 
     def __init__(self, estimators: Sequence[ContactEstimator], prior: Array, noise: float) -> None:
@@ -77,13 +63,7 @@ class Contenders:
         self._begin()
 
     def push(self, theta: float, v_x: float, v_y: float, duration: float) -> None:
-        """Take a push and the reading at its end.
-
-        Parameters
-        ----------
-        theta, v_x, v_y, duration
-            As `ContactEstimator.push` takes them.
-        """
+        """Take a push and the reading at its end, as `ContactEstimator.push` does."""
         for i in self._alive:
             self._latest[i] = self._estimators[i].push(theta, v_x, v_y, duration)
         if math.isfinite(theta):

@@ -116,18 +116,10 @@ class Watch:
     def read(self, theta: float, way: float, error: float, log_density: float, off: float) -> None:
         """Compare a reading with what the model says.
 
-        Parameters
-        ----------
-        theta : float
-            The reading [rad].
-        way : float
-            How far the finger has pushed since the last one [m].
-        error : float
-            By how much the reading differs from the expected one, in standard deviations.
-        log_density : float
-            Logarithm of the probability density that the model gave to the reading [1/rad].
-        off : float
-            Share of the hypotheses whose contact has run off the edge.
+        `way` is how far the finger has pushed since the last reading [m], `error` by how much the
+        reading differs from the expected one in standard deviations, `log_density` the logarithm
+        of the probability density that the model gave to it [1/rad], and `off` the share of the
+        hypotheses whose contact has run off the edge.
         """
         self._since.append(theta)
         self._gone += way
@@ -143,7 +135,7 @@ class Watch:
             self.reason = self._why(off)
 
     def _why(self, off: float) -> str:
-        """Say what contradicts the model now."""
+        """Return what contradicts the model now."""
         still, turning, anywhere = self._still.sum, self._turning.sum, self._anywhere
         most = max(still, turning, anywhere)
         certain = max(still, turning) > CERTAIN or anywhere > JUMPY
@@ -169,22 +161,12 @@ class Watch:
 
 
 class Probation:
-    """Tells when an estimator that began anew after a contradiction is to be believed.
+    """Decides when to believe an estimator again that began anew after a contradiction.
 
     As many readings in a row have to agree as there were before the contradiction, between 40 and
     200: a model that is wrong for good would need no more to be contradicted again. After an edge
     that did not turn nothing is said before it turns again: a belt that stands looks like
     an object that translates.
-
-    Parameters
-    ----------
-    noise : float
-        Standard deviation of the readings [rad].
-
-    Attributes
-    ----------
-    reason : str
-        The contradiction; empty if the estimator is to be believed.
     """
 
     def __init__(self, noise: float) -> None:
@@ -200,33 +182,14 @@ class Probation:
         self._outside = 0
 
     def contradicted(self, reason: str, theta: float) -> None:
-        """Take a contradiction.
-
-        Parameters
-        ----------
-        reason : str
-            What contradicts the model.
-        theta : float
-            The last reading [rad].
-        """
+        """Take a contradiction at the reading theta [rad]."""
         self._needed = min(max(self._readings, FEWEST), MOST)
         self._readings = self._outside = 0
         self._stood = theta if reason == STILL else None
         self.reason = reason
 
     def agreed(self, theta: float) -> bool:
-        """Take a reading that agrees with the model.
-
-        Parameters
-        ----------
-        theta : float
-            The reading [rad].
-
-        Returns
-        -------
-        bool
-            Whether the estimator is to begin anew even so, because the edge still stands.
-        """
+        """Take a reading that agrees; return whether to begin anew since the edge still stands."""
         if self._stood is not None:
             near = abs(theta - self._stood) < NEAR * self._noise
             self._outside = 0 if near else self._outside + 1

@@ -11,6 +11,7 @@ from tactile_push.estimation.contenders import Contenders
 from tactile_push.estimation.object_estimator import ObjectEstimate
 from tactile_push.estimation.pose import object_pose
 from tactile_push.estimation.prior import Prior
+from tactile_push.paper import FINGER_RADIUS
 
 ANY_ORIENTATION = (
     2.0 * math.pi
@@ -56,7 +57,7 @@ class DiskEstimator:
         c: tuple[float, float] = (0.005, 0.036),
         mu_c: tuple[float, float] = (0.0, math.inf),
         l_share: float = 0.085,
-        radius: float = 0.0135,
+        radius: float = FINGER_RADIUS,
         radius_share: float = 0.085,
         outlier: float = 0.001,
     ) -> None:
@@ -100,7 +101,7 @@ class DiskEstimator:
         return self.estimate()
 
     def estimate(self) -> ObjectEstimate:
-        """Tell what is known.
+        """Return what is known.
 
         Returns
         -------

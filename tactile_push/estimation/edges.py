@@ -47,7 +47,7 @@ class Edge:
         return self.d[1] - self.d[0]
 
     def same_place(self, other: 'Edge', slack: float) -> bool:
-        """Tell whether another edge lies the same way to the centre of mass.
+        """Return whether another edge lies the same way to the centre of mass.
 
         Parameters
         ----------
@@ -66,7 +66,7 @@ class Edge:
 
 
 def edges_of(vertices: npt.ArrayLike) -> tuple[Edge, ...]:
-    """Give the edges of a convex polygon.
+    """Return the edges of a convex polygon.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def edges_of(vertices: npt.ArrayLike) -> tuple[Edge, ...]:
 
 
 def _moments(corners: Array) -> Array:
-    """Give the second moments about the origin over the root of their determinant, (2, 2)."""
+    """Return the second moments about the origin over the root of their determinant, (2, 2)."""
     following = np.roll(corners, -1, axis=0)
     areas = corners[:, 0] * following[:, 1] - corners[:, 1] * following[:, 0]
     # Of every triangle at the origin, from its corners and the sum of them.
@@ -122,7 +122,7 @@ def _moments(corners: Array) -> Array:
 
 
 def _seen_from(moments: Array, angle: float) -> tuple[float, float, float]:
-    """Give second moments in a frame that is turned."""
+    """Return second moments in a frame that is turned."""
     cos, sin = math.cos(angle), math.sin(angle)
     turn = np.array([[cos, sin], [-sin, cos]])
     turned = turn @ moments @ turn.T

@@ -101,7 +101,7 @@ class GuaranteedSet:
         return self._count == 0
 
     def ranges(self) -> Array:
-        """Give the bounds.
+        """Return the bounds.
 
         Returns
         -------

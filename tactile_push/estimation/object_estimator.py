@@ -19,6 +19,7 @@ from tactile_push.estimation.edges import Edge
 from tactile_push.estimation.pose import object_pose
 from tactile_push.estimation.prior import Prior
 from tactile_push.mechanics.compiled import Array
+from tactile_push.paper import FINGER_RADIUS
 
 ALIKE = 1e-6  # of lengths and weights, in units of themselves
 EDGE_EXCLUDED = 0.01  # an edge with that much of the best one's weight is no part of the intervals
@@ -111,7 +112,7 @@ class ObjectEstimator:
         c: tuple[float, float] = (0.005, 0.036),
         mu_c: tuple[float, float] = (0.0, math.inf),
         l_share: float = 0.085,
-        radius: float = 0.0135,
+        radius: float = FINGER_RADIUS,
         radius_share: float = 0.085,
         outlier: float = 0.001,
     ) -> None:
@@ -175,7 +176,7 @@ class ObjectEstimator:
         return self.estimate()
 
     def estimate(self) -> ObjectEstimate:
-        """Tell what is known.
+        """Return what is known.
 
         Returns
         -------
@@ -218,7 +219,7 @@ class ObjectEstimator:
     def _pose(
         self, estimates: tuple[Estimate, ...], weights: Array, best: int
     ) -> tuple[Array, Array]:
-        """Give the pose under the best edge and all edges' deviations from it."""
+        """Return the pose under the best edge and all edges' deviations from it."""
         poses, covariance = [], np.zeros((3, 3))
         for edge, weight, estimate in zip(self.edges, weights, estimates, strict=True):
             pose, own = object_pose(estimate)

@@ -12,7 +12,7 @@ from tactile_push.mechanics.compiled import Array
 
 
 def object_pose(estimate: Estimate) -> tuple[Array, Array]:
-    """Give the pose of the centre of mass in the frame of the finger's disk.
+    """Compute the pose of the centre of mass in the frame of the finger's disk.
 
     The sensed theta and the estimated d determine it completely; to first order in their errors.
 

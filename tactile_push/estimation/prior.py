@@ -92,7 +92,7 @@ class Prior:
 
 
 def friction(alpha: float) -> float:
-    """Give the coefficient for an angle of friction."""
+    """Return the coefficient for an angle of friction."""
     return math.inf if alpha >= math.pi / 2.0 else max(0.0, math.tan(alpha))
 
 

@@ -99,6 +99,11 @@ def intersect_rays(rays: Sequence[Ray]) -> Intersection:
         If the rays are parallel to within ten standard deviations of the angles between them.
     ValueError
         If there are fewer than two rays.
+
+    References
+    ----------
+    K. M. Lynch, H. Maekawa and K. Tanie, "Manipulation and active sensing by pushing using
+    tactile feedback", IROS 1992, Section III.
     """
     if len(rays) < 2:
         raise ValueError(f'rays: expected two or more, got {len(rays)}')

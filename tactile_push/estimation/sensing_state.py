@@ -10,7 +10,7 @@ from tactile_push.estimation.object_estimator import ObjectEstimate
 
 
 def sensing_values(estimate: ObjectEstimate, sensing: ActiveSensing) -> dict[str, float]:
-    """Give all that is known after one control period.
+    """Return all that is known after a control period by name.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def sensing_values(estimate: ObjectEstimate, sensing: ActiveSensing) -> dict[str
 
 
 def tells_pose(estimate: ObjectEstimate, sensing: ActiveSensing) -> bool:
-    """Tell whether a control period has a new pose of the object to tell.
+    """Return whether a control period brought a new pose of the object.
 
     Parameters
     ----------

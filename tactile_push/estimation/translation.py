@@ -8,7 +8,7 @@ from statistics import NormalDist
 
 
 def contact_of_translation(theta: float, phi: float, l: float) -> float:
-    """Give the contact d of an object that translates, eq. (17).
+    """Compute the contact d of an object that translates, eq. (17).
 
     The ray of pushing passes through the centre of mass. The paper's two branches are the same
     function, -l / tan(phi - theta), since the tangent repeats after pi; straight pushes give 0.
@@ -31,6 +31,11 @@ def contact_of_translation(theta: float, phi: float, l: float) -> float:
     ------
     ValueError
         If the finger does not move into the object.
+
+    References
+    ----------
+    K. M. Lynch, H. Maekawa and K. Tanie, "Manipulation and active sensing by pushing using
+    tactile feedback", IROS 1992, eq. (17).
     """
     beta = phi - theta
     if not 0.0 < beta < math.pi:
@@ -65,6 +70,11 @@ def bounds_of_translation(
     ------
     ValueError
         If a range is none, or the finger may not move into the object.
+
+    References
+    ----------
+    K. M. Lynch, H. Maekawa and K. Tanie, "Manipulation and active sensing by pushing using
+    tactile feedback", IROS 1992, Section III.
     """
     for name, (least, most) in (('theta', theta), ('phi', phi)):
         if not least <= most:
@@ -76,7 +86,7 @@ def bounds_of_translation(
 
 
 def translates(theta: Sequence[float], way: float, noise: float, error: float, turn: float) -> bool:
-    """Tell whether an object translates, with a stated probability of error.
+    """Decide whether an object translates, with a stated probability of error.
 
     No data show that something does not turn at all: it is called translating if it turns by less
     than `turn` a metre. A straight line is fitted to the readings; the answer is yes if the whole
@@ -122,7 +132,7 @@ def translates(theta: Sequence[float], way: float, noise: float, error: float, t
 
 
 def centre_on_ray(theta: float, d: float, l: float, r: float) -> tuple[float, float]:
-    """Give the centre of mass in the frame of the finger's disk.
+    """Compute the centre of mass in the frame of the finger's disk.
 
     While the object translates, it lies on the ray of pushing that leaves the contact.
 

@@ -3,12 +3,9 @@
 """Mechanics of a pushed object: Sections I and II of the paper."""
 
 from tactile_push.mechanics.body import Body, Finger, Pose
-from tactile_push.mechanics.contact import clearance, contact, piece_at, reach, tangent_angle
+from tactile_push.mechanics.contact import clearance, contact, tangent_angle
 from tactile_push.mechanics.exact_motion import (
     exact_pushed_twist,
-    exact_slipping,
-    exact_sticking,
-    support_force,
 )
 from tactile_push.mechanics.friction import (
     check_friction,
@@ -36,7 +33,7 @@ from tactile_push.mechanics.motion import (
     twist_under_force,
 )
 from tactile_push.mechanics.outline import Outline
-from tactile_push.mechanics.push import approach, move_finger, push, push_rates
+from tactile_push.mechanics.push import move_finger, push
 from tactile_push.mechanics.slider import Slider
 from tactile_push.mechanics.support import Support
 
@@ -55,26 +52,19 @@ __all__ = [
     'Pose',
     'Slider',
     'Support',
-    'approach',
     'check_friction',
     'clearance',
     'contact',
     'contact_mode',
     'contact_velocity',
     'exact_pushed_twist',
-    'exact_slipping',
-    'exact_sticking',
     'friction_cone',
     'motion_cone',
     'move_finger',
-    'piece_at',
     'push',
-    'push_rates',
     'pushed_twist',
-    'reach',
     'slipping_twist',
     'sticking_twist',
-    'support_force',
     'tangent_angle',
     'translation_contacts',
     'twist_under_force',

@@ -32,11 +32,6 @@ def compilation_announced(announce: Callable[[], None]) -> Iterator[None]:
     """Call a function before the first compilation in a block, if there is one.
 
     There is none if the machine code of all that the block calls is in the cache.
-
-    Parameters
-    ----------
-    announce : callable
-        Says that compilation, which takes seconds, begins.
     """
     with event.install_listener('numba:compile', _Once(announce)):
         yield

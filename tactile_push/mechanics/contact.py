@@ -30,20 +30,7 @@ SMALL_ANGLE = 0.25  # below it a few terms of the series are exact [rad]
 
 @equation
 def rotated(x: float, y: float, angle: float) -> tuple[float, float]:
-    """Rotate a vector, fast when the angle is small, as it is within a push.
-
-    Parameters
-    ----------
-    x, y : float
-        A vector, in any unit.
-    angle : float
-        Angle, counterclockwise [rad].
-
-    Returns
-    -------
-    x, y : float
-        The rotated vector.
-    """
+    """Rotate a vector, fast when the angle is small, as it is within a push."""
     if abs(angle) < SMALL_ANGLE:
         q = angle * angle
         sin = angle * (
@@ -57,20 +44,7 @@ def rotated(x: float, y: float, angle: float) -> tuple[float, float]:
 
 @compiled
 def piece_at(sigma: float, path: Array) -> int:
-    """Find the piece of the path on which a contact lies.
-
-    Parameters
-    ----------
-    sigma : float
-        Position along the path [m]; any number, a full turn is the path's length.
-    path : ndarray, shape (M + 1, 8)
-        Pieces of the path.
-
-    Returns
-    -------
-    int
-        Row of `path`.
-    """
+    """Return the row of the path on which a contact lies; sigma may be any number of turns."""
     first, last = 0, len(path) - 1
     around = path[last, SIGMA]
     if not 0.0 <= sigma < around:
@@ -86,7 +60,7 @@ def piece_at(sigma: float, path: Array) -> int:
 
 @equation
 def contact(sigma: float, piece: int, path: Array, r: float) -> tuple[float, float, float, float]:
-    """Give the contact's geometry: its tangent and the paper's d and l.
+    """Compute the contact's geometry: its tangent and the paper's d and l.
 
     Parameters
     ----------
@@ -127,7 +101,7 @@ def contact(sigma: float, piece: int, path: Array, r: float) -> tuple[float, flo
 
 @equation
 def tangent_angle(sigma: float, path: Array) -> float:
-    """Give the angle of the tangent at a contact.
+    """Return the angle of the tangent at a contact.
 
     Parameters
     ----------
@@ -149,22 +123,7 @@ def tangent_angle(sigma: float, path: Array) -> float:
 
 @equation
 def reach(theta: float, d: float, l: float, r: float) -> tuple[float, float]:
-    """Give the finger's place relative to the object that it touches.
-
-    Parameters
-    ----------
-    theta : float
-        Angle of the tangent at the contact [rad].
-    d, l : float
-        The contact relative to the centre of mass is d t - l n [m].
-    r : float
-        Radius of the finger's disk [m].
-
-    Returns
-    -------
-    x, y : float
-        From the centre of mass to the centre of the disk [m].
-    """
+    """Compute the way from the centre of mass to the centre of the disk that touches [m]."""
     return rotated(d, -l - r, theta)
 
 

@@ -38,24 +38,11 @@ BISECTED = 1e-13  # last step of a bisection, relative
 def support_force(
     u_x: float, u_y: float, omega: float, x_c: float, y_c: float, support: Array
 ) -> tuple[float, float, float, float, float, float, float, float, float]:
-    """Give the wrench that keeps a motion going, and how it changes with the motion.
+    """Compute the wrench that keeps a motion going, and its derivatives by the motion.
 
-    Parameters
-    ----------
-    u_x, u_y, omega : float
-        Velocity of the object's material at the reference point [m/s], not zero, and angular
-        velocity [rad/s].
-    x_c, y_c : float
-        Reference point in the object's frame [m]: the contact.
-    support : ndarray, shape (3, N)
-        Support points (x, y, load) in the object's frame.
-
-    Returns
-    -------
-    f_x, f_y, m : float
-        Force and moment about the reference point, in units of the loads and of m.
-    h_xx, h_xy, h_yy, h_xm, h_ym, h_mm : float
-        Their derivatives by (u_x, u_y, omega), a symmetric matrix.
+    The wrench (f_x, f_y, m) refers to the reference point (x_c, y_c) of the object's frame, where
+    the material moves at (u_x, u_y), not zero. The symmetric matrix of its derivatives by
+    (u_x, u_y, omega) follows: h_xx, h_xy, h_yy, h_xm, h_ym, h_mm.
     """
     floor = STANDSTILL**2 * (u_x * u_x + u_y * u_y) + SMALLEST_SQUARE
     f_x, f_y, m = 0.0, 0.0, 0.0
@@ -94,29 +81,10 @@ def next_guess(
     """Go on to the root of a function that never decreases.
 
     Newton's method, or a bisection where that does not halve the value or leaves the bracket.
-
-    Parameters
-    ----------
-    x, value, slope : float
-        Present guess, the function and its derivative there.
-    before : float
-        Magnitude of the function at the guess before.
-    lower, upper : float
-        Bracket of the root, x one of its ends; the other may be infinite.
-    scale : float
-        What a change of x is compared with when x itself is near 0.
-    size : float
-        What the value is compared with: beside a support point it changes steeply, and a short
-        step is no sign of a root.
-
-    Returns
-    -------
-    x : float
-        The next guess.
-    smooth : bool
-        Whether Newton's method gave it.
-    found : bool
-        Whether it is the root.
+    `before` is the value's magnitude at the last guess. A step counts as short beside |x| + scale,
+    a value as small beside `size`: near a support point it changes steeply, and a short step is no
+    sign of a root. Returned are the next guess, whether Newton's method gave it, and whether it is
+    the root.
     """
     open_ended = math.isinf(upper - lower)
     if not abs(value) > 0.0:  # also if it is not a number
@@ -137,31 +105,11 @@ def next_guess(
 def exact_sticking(
     u_x: float, u_y: float, omega: float, x_c: float, y_c: float, c: float, support: Array
 ) -> tuple[float, float, float, float, float, float, float, float]:
-    """Give the motion that dissipates least when the contact's velocity is given.
+    """Compute the motion that dissipates least when the contact's velocity is given.
 
-    Parameters
-    ----------
-    u_x, u_y : float
-        Velocity of the object's material at the contact [m/s], not zero.
-    omega : float
-        A first guess [rad/s].
-    x_c, y_c : float
-        Contact in the object's frame [m].
-    c : float
-        Ratio m_max / f_max [m]: the scale of lengths.
-    support : ndarray, shape (3, N)
-        Support points (x, y, load) in the object's frame.
-
-    Returns
-    -------
-    omega : float
-        Angular velocity [rad/s].
-    f_x, f_y : float
-        Force at the contact, in units of the loads.
-    s_xx, s_xy, s_yy : float
-        Derivative of the force by the contact's velocity, a symmetric matrix.
-    o_x, o_y : float
-        Derivative of omega by the contact's velocity [1/m].
+    The material at the contact (x_c, y_c) moves at (u_x, u_y), not zero; `omega` is a first guess.
+    Returned are omega, the force (f_x, f_y), and by the contact's velocity the derivatives of the
+    force (s_xx, s_xy, s_yy) and of omega (o_x, o_y).
     """
     scale = math.hypot(u_x, u_y) / (c + math.hypot(x_c, y_c))
     lower, upper, before, smooth, found = -math.inf, math.inf, math.inf, True, False
@@ -197,27 +145,10 @@ def exact_slipping(
     c: float,
     support: Array,
 ) -> tuple[float, float]:
-    """Give the motion under a force of given direction at the contact.
+    """Compute the motion under a force along the unit vector (e_x, e_y) at the contact.
 
-    Parameters
-    ----------
-    e_x, e_y : float
-        Unit vector along the force, in the object's frame.
-    slope, omega : float
-        A first guess.
-    x_c, y_c : float
-        Contact in the object's frame [m].
-    c : float
-        Ratio m_max / f_max [m]: the scale of lengths.
-    support : ndarray, shape (3, N)
-        Support points (x, y, load) in the object's frame.
-
-    Returns
-    -------
-    slope : float
-        The contact moves at (e_x, e_y) + slope (-e_y, e_x), up to a positive factor.
-    omega : float
-        Angular velocity that goes with it [rad/m].
+    The contact moves at (e_x, e_y) + slope (-e_y, e_x), up to a positive factor, and the object
+    turns at omega [rad/m] with it; both arguments are first guesses of what is returned.
     """
     lower, upper, before, found = -math.inf, math.inf, math.inf, False
     while not found:
@@ -251,7 +182,7 @@ def exact_pushed_twist(
     t_y: float,
     support: Array,
 ) -> tuple[float, float, float, float, int]:
-    """Give the motion of an object that a finger pushes, whether the contact sticks or slips.
+    """Compute the motion of an object that a finger pushes, whether the contact sticks or slips.
 
     As `pushed_twist`, in the edge frame; the support points alone are in the object's frame.
 
@@ -278,6 +209,11 @@ def exact_pushed_twist(
         Velocity of the finger along the tangent relative to the object [m/s].
     mode : int
         `STICK`, `SLIP_LEFT`, `SLIP_RIGHT` or `FREE`, see `contact_mode`.
+
+    References
+    ----------
+    S. Goyal, A. Ruina and J. Papadopoulos, "Planar sliding with dry friction. Part 1. Limit surface
+    and moment function", Wear 143, 1991.
     """
     speed = math.hypot(v_px, v_py)
     if speed <= STANDS:

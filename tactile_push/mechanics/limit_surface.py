@@ -35,6 +35,13 @@ class EllipsoidalLimitSurface:
     ------
     ValueError
         If one of them is not positive and finite.
+
+    References
+    ----------
+    K. M. Lynch, H. Maekawa and K. Tanie, "Manipulation and active sensing by pushing using
+    tactile feedback", IROS 1992, eqs. (1) to (5).
+    R. D. Howe and M. R. Cutkosky, "Practical force-motion models for sliding manipulation",
+    International Journal of Robotics Research 15 (6), 1996.
     """
 
     f_max: float
@@ -68,7 +75,7 @@ class EllipsoidalLimitSurface:
         return float((f_x**2 + f_y**2) / self.f_max**2 + m**2 / self.m_max**2)
 
     def twist(self, wrench: npt.ArrayLike) -> Array:
-        """Give the direction of motion under a wrench on the surface, eqs. (4) and (5).
+        """Compute the direction of motion under a wrench on the surface, eqs. (4) and (5).
 
         Parameters
         ----------
@@ -85,7 +92,7 @@ class EllipsoidalLimitSurface:
         return np.array([f_x, f_y, m / self.c**2])
 
     def wrench(self, twist: npt.ArrayLike) -> Array:
-        """Give the wrench on the surface that keeps a motion going.
+        """Compute the wrench on the surface that keeps a motion going.
 
         Parameters
         ----------
@@ -123,6 +130,11 @@ class ExactLimitSurface:
     ------
     ValueError
         If all load is in one place: it resists no moment.
+
+    References
+    ----------
+    S. Goyal, A. Ruina and J. Papadopoulos, "Planar sliding with dry friction. Part 1. Limit surface
+    and moment function", Wear 143, 1991.
     """
 
     support: Support
@@ -143,7 +155,7 @@ class ExactLimitSurface:
         return np.array([x, y, self.support.loads])  # each row in one piece of memory
 
     def wrench(self, twist: npt.ArrayLike) -> Array:
-        """Give the wrench on the surface that keeps a motion going.
+        """Compute the wrench on the surface that keeps a motion going.
 
         Parameters
         ----------
@@ -174,7 +186,7 @@ class ExactLimitSurface:
         )
 
     def twist(self, wrench: npt.ArrayLike) -> Array:
-        """Give the direction of motion under a wrench.
+        """Compute the direction of motion under a wrench.
 
         Parameters
         ----------
@@ -209,7 +221,7 @@ class ExactLimitSurface:
         return np.array([u_x + omega * y, u_y - omega * x, omega]) / force
 
     def level(self, wrench: npt.ArrayLike) -> float:
-        """Tell how far out a wrench is: below 1 the object rests, at 1 it slides.
+        """Compute how far out a wrench is: below 1 the object rests, at 1 it slides.
 
         Parameters
         ----------

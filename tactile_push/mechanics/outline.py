@@ -216,7 +216,7 @@ class Outline:
         return float(self.pieces[:, 3].sum())
 
     def path(self, r: float) -> Array:
-        """Give the path of the finger's disk around the object.
+        """Return the path of the finger's disk around the object.
 
         Parameters
         ----------
@@ -299,7 +299,7 @@ class Outline:
         return float(path[piece, SIGMA] + min(max(d, lower), upper) - lower)
 
     def contains(self, points: npt.ArrayLike, slack: float = 0.0) -> npt.NDArray[np.bool_]:
-        """Tell which points lie inside the outline or on it.
+        """Return which points lie inside the outline or on it.
 
         Parameters
         ----------
@@ -326,7 +326,7 @@ class Outline:
         )
 
     def points(self, spacing: float) -> Array:
-        """Give points on the outline, the corners among them.
+        """Return points on the outline, the corners among them.
 
         Parameters
         ----------

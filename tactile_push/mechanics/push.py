@@ -57,33 +57,7 @@ def _turn_and_slip(
 def push_rates(
     turn: float, sigma: float, piece: int, v_x: float, v_y: float, body: Body, finger: Finger
 ) -> tuple[float, float, int]:
-    """Compute the rates of the object's angle and of the contact during a push.
-
-    Parameters
-    ----------
-    turn : float
-        How far the object has turned since the start of the push [rad].
-    sigma : float
-        Position of the disk's centre along its path around the object [m].
-    piece : int
-        Piece of the path where it probably lies.
-    v_x, v_y : float
-        Velocity of the finger relative to the support [m/s], in the axes that the object's frame
-        had at the start of the push.
-    body : Body
-        The object.
-    finger : Finger
-        The finger.
-
-    Returns
-    -------
-    omega : float
-        Angular velocity of the object [rad/s].
-    sigma_dot : float
-        Velocity of the disk's centre along its path [m/s], eq. (16).
-    mode : int
-        `FREE`, `STICK`, `SLIP_LEFT` or `SLIP_RIGHT`.
-    """
+    """Compute the rates of the object's angle and of the contact during a push."""
     t_x, t_y, d, l = contact(sigma, piece, body.path, finger.r)
     v_x, v_y = rotated(v_x, v_y, -turn)
     v_px, v_py = t_x * v_x + t_y * v_y, t_x * v_y - t_y * v_x
@@ -200,6 +174,11 @@ def push(
         the object, for instance because the object turned out of its way.
     mode : int
         How the contact moved at the end: `FREE`, `STICK`, `SLIP_LEFT` or `SLIP_RIGHT`.
+
+    References
+    ----------
+    K. M. Lynch, H. Maekawa and K. Tanie, "Manipulation and active sensing by pushing using
+    tactile feedback", IROS 1992, Section II.C and eq. (16).
     """
     body, finger = Body(path, c, support), Finger(cos_alpha, sin_alpha, r)
     return push_body(angle, sigma, v_x, v_y, duration, body, finger)
@@ -220,30 +199,6 @@ def approach(
 
     The outline is convex, and so is the gap over time: Newton's method comes from before the
     contact and never passes it.
-
-    Parameters
-    ----------
-    pose : Pose
-        Pose of the object.
-    x_f, y_f : float
-        Centre of the finger's disk at the start [m].
-    v_x, v_y : float
-        Velocity of the finger [m/s].
-    duration : float
-        How long it moves at most [s].
-    path : ndarray, shape (M + 1, 8)
-        Pieces of the disk's path around the object.
-    r : float
-        Radius of the finger's disk [m].
-
-    Returns
-    -------
-    elapsed : float
-        Time to the contact [s]; `duration` without one.
-    sigma : float
-        Where it touches, or where it was nearest at the last look [m].
-    touching : bool
-        Whether it touches.
     """
     elapsed = 0.0
     while True:

@@ -22,7 +22,7 @@ DENSITY_NODES = (8, 16, 32, 64, 128, 256, 512)
 
 
 def points_on(pieces: Array, s: Array) -> Array:
-    """Give points on pieces of an outline, at lengths s from their starts, all of shape (...)."""
+    """Return points on pieces of an outline, at lengths s from their starts, all of shape (...)."""
     x, y, tau, length, turn = np.moveaxis(pieces, -1, 0)
     half = turn * np.divide(s, length, out=np.zeros_like(s), where=length > 0.0) / 2.0
     chord = s * np.sinc(half / np.pi)  # of an arc that turns by 2 half
@@ -30,7 +30,7 @@ def points_on(pieces: Array, s: Array) -> Array:
 
 
 def spaced(outline: Outline, count: float) -> tuple[Array, Array, Array]:
-    """Give points spaced evenly on the boundary, unit tangents and the lengths they stand for."""
+    """Return points spaced evenly on the boundary, unit tangents and the lengths they stand for."""
     points, tangents, lengths = [], [], []
     corners = np.flatnonzero(outline.pieces[:, 3] == 0.0)
     for side in np.split(outline.pieces, corners):  # which begins with a corner or is empty
@@ -49,7 +49,7 @@ def spaced(outline: Outline, count: float) -> tuple[Array, Array, Array]:
 
 
 def boundary(outline: Outline, nodes: int = GAUSS) -> tuple[Array, Array, Array]:
-    """Give nodes on the boundary, unit tangents and weights ds for integrals along it."""
+    """Return nodes on the boundary, unit tangents and weights ds for integrals along it."""
     at, weight = np.polynomial.legendre.leggauss(nodes)
     points, tangents, weights = [], [], []
     for piece in outline.pieces:
@@ -65,7 +65,7 @@ def boundary(outline: Outline, nodes: int = GAUSS) -> tuple[Array, Array, Array]
 
 
 def area_and_centroid(outline: Outline) -> tuple[float, Array]:
-    """Give the area and the centroid."""
+    """Return the area and the centroid."""
     b, t, ds = boundary(outline)
     cross = (b[:, 0] * t[:, 1] - b[:, 1] * t[:, 0]) * ds
     area = cross.sum() / 2.0
@@ -91,7 +91,7 @@ def distances(outline: Outline, power: int) -> float:
 
 
 def _primitive(d: float, l: float) -> float:
-    """Give a primitive of sqrt(l^2 + d^2) by d."""
+    """Return a primitive of sqrt(l^2 + d^2) by d."""
     return (d * math.hypot(l, d) + l * l * math.asinh(d / l)) / 2.0
 
 

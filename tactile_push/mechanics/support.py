@@ -48,6 +48,11 @@ class Support:
     m_max : float
         Greatest frictional moment about the centre [N m], eq. (1): of the continuous support where
         the points only stand for it.
+
+    References
+    ----------
+    K. M. Lynch, H. Maekawa and K. Tanie, "Manipulation and active sensing by pushing using
+    tactile feedback", IROS 1992, eqs. (1) and (2).
     """
 
     points: Array

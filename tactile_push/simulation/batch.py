@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from tactile_push import paper
 from tactile_push.control import AHEAD
 from tactile_push.mechanics import Body, Finger, Slider, check_friction, friction_cone
 from tactile_push.mechanics.compiled import Array, compiled, equation
@@ -31,8 +32,6 @@ from tactile_push.simulation.rollout import (
 from tactile_push.simulation.servo import Servo
 
 CHUNKS_PER_WORKER = 8
-PHI_MIN, PHI_MAX = math.radians(33.0), math.radians(147.0)  # V.A
-SETTLED = math.radians(3.0)  # V.C
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,14 +149,14 @@ def rollouts(
     kp: npt.ArrayLike = 0.0,
     kd: npt.ArrayLike = 0.0,
     theta_desired: npt.ArrayLike = 0.0,
-    phi_min: npt.ArrayLike = PHI_MIN,
-    phi_max: npt.ArrayLike = PHI_MAX,
+    phi_min: npt.ArrayLike = paper.PHI_MIN,
+    phi_max: npt.ArrayLike = paper.PHI_MAX,
     steps: int,
-    period: float = 0.1,
-    belt_speed: float = 0.005,
-    radius: float = 0.0135,
+    period: float = paper.CONTROL_PERIOD,
+    belt_speed: float = paper.BELT_SPEED,
+    radius: float = paper.FINGER_RADIUS,
     servo: Servo | Sequence[Servo] | None = None,
-    band: float = SETTLED,
+    band: float = paper.TOLERANCE,
     history: bool = False,
 ) -> Rollouts:
     """Push very many objects with the control law, on all cores.
@@ -320,7 +319,7 @@ def rollouts(
 
 
 def _distinct_paths(objects: Sequence[Slider], radius: float) -> list[Array]:
-    """Give the path around each object, made once for each outline."""
+    """Return the path around each object, made once for each outline."""
     made: dict[int, Array] = {}
     for one in objects:
         if id(one.outline) not in made:

@@ -39,7 +39,7 @@ class Belt:
             raise ValueError(f'frequency: expected a positive frequency [Hz], got {self.frequency}')
 
     def speed(self, nominal: float, time: float) -> float:
-        """Give the belt's speed at a moment.
+        """Return the belt's speed at a moment.
 
         Parameters
         ----------
@@ -58,7 +58,7 @@ class Belt:
         return nominal * (1.0 + self.ripple * math.sin(2.0 * math.pi * self.frequency * time))
 
     def mean_speed(self, nominal: float, time: float, duration: float) -> float:
-        """Give the belt's mean speed over a while.
+        """Return the belt's mean speed over a while.
 
         Parameters
         ----------
@@ -84,7 +84,7 @@ class Belt:
         return nominal * (1.0 + self.ripple * middle * math.sin(half) / half)
 
     def straight(self, nominal: float) -> float:
-        """Tell for how long the finger's way on the belt is nearly straight.
+        """Return for how long the finger's way on the belt is nearly straight.
 
         Parameters
         ----------

@@ -58,20 +58,7 @@ def serve(device: str) -> DeviceServer:
 
 
 class TcpServer:
-    """Sends to every TCP client.
-
-    Parameters
-    ----------
-    host : str
-        Address to listen on.
-    port : int
-        Port to listen on.
-
-    Raises
-    ------
-    OSError
-        If the address is in use or not ours.
-    """
+    """Sends to every TCP client."""
 
     def __init__(self, host: str, port: int) -> None:
         try:
@@ -115,15 +102,7 @@ class TcpServer:
 class PseudoTerminal:
     """A serial line without wires, reached through a link at a path of our choice.
 
-    Parameters
-    ----------
-    path : str
-        Where the link appears. A dangling link, left by a killed process, is replaced.
-
-    Raises
-    ------
-    OSError
-        If something else is there already or the folder cannot be written.
+    A dangling link at the path, left by a killed process, is replaced.
     """
 
     def __init__(self, path: str) -> None:

@@ -55,53 +55,21 @@ class Pace:
     def command(self, stamp: float, now: float) -> None:
         """Take note of a command.
 
-        Parameters
-        ----------
-        stamp : float
-            Stamp of the command [s of simulated time]. One that cannot be that of the last tick
-            is taken for `now`: its sender has another clock.
-        now : float
-            Simulated time [s].
+        A stamp that cannot be that of the last tick is taken for `now`: its sender has another
+        clock.
         """
         self._command = stamp if now - self._control_period <= stamp <= now else now
 
     def reading(self, now: float) -> None:
-        """Take note that the sensor sent a reading from which a contact has to follow.
-
-        Parameters
-        ----------
-        now : float
-            Simulated time [s].
-        """
+        """Take note that the sensor sent a reading from which a contact has to follow."""
         self._reading = now
 
     def contact(self, stamp: float) -> None:
-        """Take note of a contact.
-
-        Parameters
-        ----------
-        stamp : float
-            Stamp of the contact [s of simulated time].
-        """
+        """Take note of a contact."""
         self._contact = stamp
 
     def may_reach(self, time: float, step: float, wall: float) -> bool:
-        """Decide whether simulated time may go on now.
-
-        Parameters
-        ----------
-        time : float
-            Simulated time that the next step would reach [s].
-        step : float
-            Length of the step [s].
-        wall : float
-            Wall time [s].
-
-        Returns
-        -------
-        bool
-            Whether to step.
-        """
+        """Decide at the wall time `wall` [s] whether simulated time may step on to `time` [s]."""
         if wall < self._next_wall:
             return False
         due = self._command + self._control_period

@@ -5,6 +5,7 @@
 import math
 from dataclasses import dataclass
 
+from tactile_push import paper
 from tactile_push.mechanics import (
     FREE,
     MODES,
@@ -17,10 +18,9 @@ from tactile_push.mechanics import (
     contact,
     friction_cone,
     move_finger,
-    piece_at,
-    reach,
     tangent_angle,
 )
+from tactile_push.mechanics.contact import piece_at, reach
 from tactile_push.simulation.faults import NO_FAULTS, Faults
 from tactile_push.simulation.servo import DelayLine, lagged, quantised
 from tactile_push.tactile import (
@@ -66,8 +66,8 @@ class RigConfig:
     mu_c: float
     theta: float
     d: float | None
-    belt_speed: float = 0.005
-    radius: float = 0.0135
+    belt_speed: float = paper.BELT_SPEED
+    radius: float = paper.FINGER_RADIUS
     finger: PlanarFinger = PlanarFinger(0.06, 0.08, math.pi / 2.0)
 
     def __post_init__(self) -> None:
@@ -84,12 +84,12 @@ class RigConfig:
 
 
 def paper_block(
-    theta: float = math.radians(20.0),
-    d: float = -0.006,
-    c: float = 0.0187,
+    theta: float = paper.THETA_INITIAL,
+    d: float = paper.D_INITIAL,
+    c: float = paper.C_UNIFORM,
     mu_c: float = math.inf,
 ) -> RigConfig:
-    """Give the paper's rectangular steel block, 5 cm x 4.75 cm, pushed at the 5 cm edge.
+    """Return the paper's rectangular steel block, 5 cm x 4.75 cm, pushed at the 5 cm edge.
 
     Parameters
     ----------
@@ -107,11 +107,12 @@ def paper_block(
     RigConfig
         The rig.
     """
-    return RigConfig(Slider(Outline.rectangle(0.05, 0.0475), c), mu_c, theta, d)
+    block = Outline.rectangle(paper.BLOCK_EDGE, paper.BLOCK_DEPTH)
+    return RigConfig(Slider(block, c), mu_c, theta, d)
 
 
-def paper_disk(theta: float = math.radians(20.0), mu_c: float = math.inf) -> RigConfig:
-    """Give the paper's steel disk of radius 2.85 cm, its support uniform.
+def paper_disk(theta: float = paper.THETA_INITIAL, mu_c: float = math.inf) -> RigConfig:
+    """Return the paper's steel disk of radius 2.85 cm, its support uniform.
 
     Parameters
     ----------
@@ -125,7 +126,8 @@ def paper_disk(theta: float = math.radians(20.0), mu_c: float = math.inf) -> Rig
     RigConfig
         The rig.
     """
-    return RigConfig(Slider(Outline.circle(0.0285), 0.019), mu_c, theta, 0.0)
+    disk = Outline.circle(paper.DISK_RADIUS)
+    return RigConfig(Slider(disk, 2.0 / 3.0 * paper.DISK_RADIUS), mu_c, theta, 0.0)
 
 
 class Rig:
@@ -294,7 +296,7 @@ class Rig:
         self.v_y = belt_speed if belt_running else 0.0
 
     def _straight_time(self, command: float, belt_running: bool) -> float:
-        """Tell for how long belt and friction let a straight push stand for the motion [s]."""
+        """Return for how long a straight push may stand for the motion [s]."""
         fastest = math.hypot(max(abs(self.v_x), abs(command)), self.config.belt_speed)
         straight = self.faults.belt.straight(self.config.belt_speed) if belt_running else math.inf
         return min(straight, self.faults.friction.even(fastest))

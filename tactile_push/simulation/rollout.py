@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from tactile_push import paper
 from tactile_push.control import AHEAD, PushLaw, finger_velocity, push_angle
 from tactile_push.mechanics import (
     FREE,
@@ -18,12 +19,10 @@ from tactile_push.mechanics import (
     clearance,
     contact,
     friction_cone,
-    piece_at,
-    reach,
     tangent_angle,
 )
 from tactile_push.mechanics.compiled import Array, compiled, equation
-from tactile_push.mechanics.contact import TOUCH
+from tactile_push.mechanics.contact import TOUCH, piece_at, reach
 from tactile_push.mechanics.push import push_body
 from tactile_push.simulation.rig import RigConfig
 from tactile_push.simulation.servo import Servo, lagged, quantised
@@ -256,7 +255,7 @@ def rollout(
     config: RigConfig,
     law: PushLaw | npt.ArrayLike,
     steps: int,
-    period: float = 0.1,
+    period: float = paper.CONTROL_PERIOD,
     servo: Servo | None = None,
 ) -> Rollout:
     """Push an object with the control law or, open loop, with given push angles.
@@ -285,6 +284,11 @@ def rollout(
     ValueError
         If `steps` is negative, the period not positive, a push angle not against the belt, or the
         first one points away from the object.
+
+    References
+    ----------
+    K. M. Lynch, H. Maekawa and K. Tanie, "Manipulation and active sensing by pushing using
+    tactile feedback", IROS 1992, Sections II.C and IV.
     """
     check_time(steps, period)
     pushes = None

@@ -73,7 +73,7 @@ class Workspace:
             )
 
     def time_inside(self, x: float, v_x: float, duration: float) -> float:
-        """Tell how long a finger stays inside.
+        """Return how long a finger stays inside.
 
         Parameters
         ----------
@@ -105,24 +105,7 @@ class DelayLine:
     def arriving(
         self, command: float, start: float, duration: float, delay: float
     ) -> list[tuple[float, float]]:
-        """Give a command and find what arrives meanwhile.
-
-        Parameters
-        ----------
-        command : float
-            Velocity commanded from `start` on [m/s].
-        start : float
-            Time [s].
-        duration : float
-            How long the command stays the same [s].
-        delay : float
-            How long a command is on its way [s].
-
-        Returns
-        -------
-        list of tuple of float
-            What arrives one after the other: velocity [m/s], and for how long [s].
-        """
+        """Send a command; return the velocities that arrive meanwhile and for how long [m/s, s]."""
         commands = self._commands
         if command != commands[-1][1]:
             commands.append((start, command))
@@ -143,20 +126,7 @@ class DelayLine:
 
 @equation
 def quantised(velocity: float, quantum: float) -> float:
-    """Round a velocity to whole quanta.
-
-    Parameters
-    ----------
-    velocity : float
-        Velocity [m/s].
-    quantum : float
-        Smallest difference of velocities [m/s]; 0 for none.
-
-    Returns
-    -------
-    float
-        The nearest multiple [m/s].
-    """
+    """Round a velocity to whole quanta."""
     return quantum * np.rint(velocity / quantum) if quantum > 0.0 else velocity
 
 
@@ -168,26 +138,6 @@ def lagged(
 
     time_constant v' = command - v, hence an exponential, whose integral is the way: exact over any
     time. The time is cut where the way that goes with it on the moving belt would bend by `FLAT`.
-
-    Parameters
-    ----------
-    velocity : float
-        Velocity at the start [m/s].
-    command : float
-        What it tends to [m/s].
-    time_constant : float
-        Of the lag [s]; 0 for none.
-    duration : float
-        For how long at the most [s].
-
-    Returns
-    -------
-    elapsed : float
-        For how long [s].
-    mean : float
-        Mean velocity in that time [m/s].
-    velocity : float
-        Velocity at its end [m/s].
     """
     behind = velocity - command
     if time_constant == 0.0 or abs(behind) <= FOLLOWED:

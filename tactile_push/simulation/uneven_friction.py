@@ -37,7 +37,7 @@ class UnevenFriction:
             raise ValueError(f'length: expected a positive length [m], got {self.length}')
 
     def mu_c(self, mean: float, sigma: float) -> float:
-        """Give the friction at a contact.
+        """Return the friction at a contact.
 
         Parameters
         ----------
@@ -54,7 +54,7 @@ class UnevenFriction:
         return mean * (1.0 + self.ripple * math.sin(2.0 * math.pi * sigma / self.length))
 
     def even(self, speed: float) -> float:
-        """Tell for how long the friction is nearly the same.
+        """Return for how long the friction is nearly the same.
 
         Parameters
         ----------

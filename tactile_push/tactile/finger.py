@@ -117,7 +117,7 @@ class PlanarFinger:
 
 
 def pole_angle(mount_angle: float, joint_angles: Iterable[float]) -> float:
-    """Give the angle of the finger tip's pole in `finger_base`.
+    """Return the angle of the finger tip's pole in `finger_base`.
 
     Parameters
     ----------

@@ -64,6 +64,11 @@ def contact_of_reading(
         If there is no contact, psi is not finite, an angle lies off the hemisphere, or the contact
         lies further from the pole or further out of the plane of motion than allowed. The message
         is the reason.
+
+    References
+    ----------
+    K. M. Lynch, H. Maekawa and K. Tanie, "Manipulation and active sensing by pushing using
+    tactile feedback", IROS 1992, Section V.A.
     """
     azimuth, elevation = reading.azimuth, reading.elevation
     if not math.isfinite(psi):

@@ -78,7 +78,7 @@ class PoleHistory:
         return True
 
     def at(self, stamp: float) -> float:
-        """Give the pole's angle at a time.
+        """Return the pole's angle at a time.
 
         Between two remembered times it is interpolated. After the newest it goes on as it turned
         on average since the oldest one that is at most `timeout` older than the newest: over two

@@ -9,7 +9,7 @@ from tactile_push.tactile.reading import Reading
 def reading_values(
     reading: Reading, joint_angle: float, theta: float, refusal: str
 ) -> dict[str, float]:
-    """Give all that the contact geometry used and gave for one reading.
+    """Return all inputs and outputs of the contact geometry for one reading by name.
 
     Parameters
     ----------

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from tactile_push.estimation import Prior, edges_of
-from tactile_push.mechanics import Outline, piece_at
+from tactile_push.mechanics import Outline
+from tactile_push.mechanics.contact import piece_at
 
 RECTANGLE = [(-0.025, -0.02375), (0.025, -0.02375), (0.025, 0.02375), (-0.025, 0.02375)]
 TRIANGLE = [(-0.03, -0.015), (0.04, -0.02), (-0.01, 0.035)]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tactile_push.estimation import Estimate, Quantity, object_pose
-from tactile_push.mechanics import reach
+from tactile_push.mechanics.contact import reach
 
 RADIUS = 0.0135
 

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from support.strategies import convex_polygons
-from tactile_push.mechanics import Outline, Pose, clearance, contact, piece_at, reach, tangent_angle
-from tactile_push.mechanics.contact import rotated
+from tactile_push.mechanics import Outline, Pose, clearance, contact, tangent_angle
+from tactile_push.mechanics.contact import piece_at, reach, rotated
 
 checked = settings(derandomize=True, deadline=None, max_examples=60)
 FINGER = 0.0135

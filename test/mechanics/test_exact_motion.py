@@ -19,13 +19,11 @@ from tactile_push.mechanics import (
     Outline,
     Support,
     exact_pushed_twist,
-    exact_slipping,
-    exact_sticking,
     friction_cone,
     sticking_twist,
-    support_force,
     voted_rotation,
 )
+from tactile_push.mechanics.exact_motion import exact_slipping, exact_sticking, support_force
 
 checked = settings(derandomize=True, deadline=None, max_examples=60)
 seldom = settings(derandomize=True, deadline=None, max_examples=15)

@@ -18,17 +18,15 @@ from tactile_push.mechanics import (
     Finger,
     Outline,
     Pose,
-    approach,
     clearance,
     contact,
     friction_cone,
     move_finger,
-    piece_at,
     push,
-    push_rates,
-    reach,
     tangent_angle,
 )
+from tactile_push.mechanics.contact import piece_at, reach
+from tactile_push.mechanics.push import approach, push_rates
 
 checked = settings(derandomize=True, deadline=None, max_examples=50)
 few = settings(derandomize=True, deadline=None, max_examples=15)
