@@ -8,8 +8,8 @@ import math
 class Newest:
     """Keeps the newest value, by its stamp, and gives every value once.
 
-    A value from the future is as useless as an old one: somebody's clock is wrong. It is not
-    believed, and it does not keep later ones from counting.
+    A value from the future is as useless as an old one, because somebody's clock is wrong. It is
+    ignored and does not keep later values from counting.
 
     Attributes
     ----------

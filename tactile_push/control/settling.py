@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""How long the law takes."""
+"""When theta has settled."""
 
 import numpy as np
 import numpy.typing as npt

@@ -32,9 +32,9 @@ class Condition(enum.Enum):
 class SensorReader:
     """Reads the sensor's device, and opens it again whenever it goes away.
 
-    Between attempts it waits, twice as long every time. Only a fresh reading makes the wait short
-    again, so a peer that accepts and hangs up is not asked ten times a second. The callables
-    are called in a thread of its own, and never after `stop`.
+    It waits between attempts, twice as long each time. Only a fresh reading makes the wait short
+    again, so that a peer which accepts and hangs up is not asked ten times a second. A thread of
+    its own calls the callables, and never after `stop`.
 
     Parameters
     ----------
@@ -111,8 +111,8 @@ class SensorReader:
     def stop(self) -> None:
         """Let go of the device; nothing is called afterwards.
 
-        A device that blocks, as a TCP connection to a host that does not answer, is let go of as
-        soon as it can be, without anybody's waiting for it.
+        If the device blocks, as a TCP connection to a host that does not answer does, the thread
+        closes it later and nobody waits for that.
         """
         self._stopping.set()
         with self._lock:

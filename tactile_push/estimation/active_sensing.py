@@ -35,13 +35,13 @@ class Estimator(Protocol):
 
 
 class ActiveSensing:
-    """Feeds an estimator with the controller's ticks, which have readings and commands together.
+    """Feeds an estimator with the controller's ticks, each with a reading and a command.
 
-    A push is the finger's motion between two readings. Where the controller does not know how the
-    finger moved, or whether it touched the object all the time, everything is forgotten: what was
-    known of one contact says nothing of another.
+    A push is the finger's motion between two readings. If the controller does not know how the
+    finger moved, or whether it touched the object all the time, the estimator forgets everything,
+    because what is known of one contact says nothing about another.
 
-    It has no clock: what it gives follows from the numbers it was given, in their order.
+    It has no clock: the same ticks in the same order give the same estimates.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Hypotheses side by side: what they say together."""
+"""A bank of hypotheses: what they say together."""
 
 import math
 from dataclasses import dataclass
@@ -15,9 +15,9 @@ from tactile_push.estimation.resistance import Push
 from tactile_push.mechanics.compiled import Array
 
 LONGEST_PUSH = 1e-3  # of the hypotheses [m]: a longer one is taken in parts
-KIND_EXCLUDED = 0.05  # a kind of friction with that much of the best one's evidence is excluded
+KIND_EXCLUDED = 0.05  # evidence of a kind of friction, of the best one's, that excludes it
 LOWER, UPPER = 0.025, 0.975
-HYPOTHESIS_GONE = 11.0  # one that is less likely than the best by the exponential of it is dropped
+HYPOTHESIS_GONE = 11.0  # one less likely than the best by exp(11), 6e4 times, is dropped
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class Liberties:
 
 
 class Bank:
-    """Hypotheses side by side.
+    """A bank of hypotheses about one object.
 
     Parameters
     ----------
@@ -187,7 +187,7 @@ class Bank:
         return math.log(density) + self._give_up()
 
     def _give_up(self) -> float:
-        """Drop hypotheses off the edge, and those that are too unlikely: give what that costs."""
+        """Drop unlikely hypotheses and those off the edge; return the log of what stays on it."""
         low, high = self._prior.d
         deviations = 3.0 * np.sqrt(self._covariances[:, D, D])
         off = (self._means[:, D] + deviations < low) | (self._means[:, D] - deviations > high)

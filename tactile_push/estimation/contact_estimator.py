@@ -84,16 +84,16 @@ class Estimate:
 class ContactEstimator:
     """Follows theta, and with it everything that it depends on.
 
-    Each push tells something, not only those of a translating object: omega depends on d, c,
-    mu_c and l. A bank of Gaussian hypotheses (`hypotheses`) gives the mean and the 95 % interval,
-    cells moved by bounds (`cells`) give what is guaranteed. The object is the mechanics' own, with
-    liberties, for its limit surface is no ellipsoid (`resistance`): c grows by an unknown share
-    when the object turns, depends on the direction of motion by another, and wanders as the motion
+    Every push is informative, not only those of a translating object: omega depends on d, c, mu_c
+    and l. A bank of Gaussian hypotheses (`hypotheses`) gives the mean and the 95 % interval; cells
+    moved by bounds (`cells`) give what is guaranteed. The model is the mechanics with liberties,
+    because no real limit surface is an ellipsoid (`resistance`): c grows by an unknown share when
+    the object turns, depends on the direction of motion by another, and wanders as the motion
     changes; turn and slip scatter.
 
-    mu_c is no chance variable, and an interval that is right on average over frictions would be
-    wrong for one. The 95 % interval is therefore the hull of those for no friction, for some and
-    for a contact that always sticks, as far as data do not exclude the kind.
+    mu_c is fixed, not random: an interval that is right on average over frictions would be wrong
+    for one of them. The 95 % interval is therefore the hull of those for no friction, for some
+    friction and for a contact that always sticks, without the kinds that the data exclude.
 
     Deterministic: the same pushes give the same estimates.
 

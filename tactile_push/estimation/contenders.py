@@ -12,16 +12,15 @@ from tactile_push.estimation.contact_estimator import ContactEstimator, Estimate
 from tactile_push.estimation.contradictions import Probation
 from tactile_push.mechanics.compiled import Array
 
-EDGE_GONE = 16.0  # an estimator that is less likely than the best by exp(EDGE_GONE) is given up
+EDGE_GONE = 16.0  # an estimator less likely than the best by exp(16), 9e6 times, is dropped
 UNLIKELY = 'another edge agrees far better with the readings'
 
 
 class Contenders:
     """Weighs estimators by how well they agree with the readings.
 
-    One that has become too unlikely, or that the readings contradict, is given up. When none is
-    left all begin anew with the last reading, and are believed again when readings have agreed for
-    long enough (`contradictions.Probation`).
+    It drops an estimator that has become too unlikely or that the readings contradict. When none is
+    left, all begin anew with the last reading; `Probation` decides when to believe them again.
     """
 
     def __init__(self, estimators: Sequence[ContactEstimator], prior: Array, noise: float) -> None:

@@ -16,7 +16,7 @@ from itertools import pairwise
 
 CERTAIN = 12.0  # an explanation that is exp(CERTAIN) times likelier contradicts the model
 JUMPY = 15.0  # the same of readings that are anywhere: three outliers in a row
-LEAK = 0.01  # of a sum, per reading
+LEAK = 0.01  # what a sum loses per reading, as a share: it forgets within 100 readings
 MEMORY = 20  # readings over which surprise is averaged
 SURPRISE = 4.0  # mean of squared normalised errors, 1 on average, that contradicts the model
 MOST_SURPRISE = 25.0  # what one reading can add to the surprise
@@ -163,9 +163,9 @@ class Watch:
 class Probation:
     """Decides when to believe an estimator again that began anew after a contradiction.
 
-    As many readings in a row have to agree as there were before the contradiction, between 40 and
-    200: a model that is wrong for good would need no more to be contradicted again. After an edge
-    that did not turn nothing is said before it turns again: a belt that stands looks like
+    As many readings in a row must agree as there were before the contradiction, between 40 and 200:
+    a model that is always wrong would be contradicted again within so many. If the contradiction
+    was an edge that did not turn, the edge must turn again first, because a stopped belt looks like
     an object that translates.
     """
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Where a disk is that is pushed."""
+"""Where a pushed disk is."""
 
 import math
 

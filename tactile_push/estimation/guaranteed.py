@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Bounds that hold whenever sensor and object keep to theirs."""
+"""Guaranteed bounds: they hold as long as sensor and object stay within their own bounds."""
 
 import math
 from dataclasses import dataclass

@@ -35,11 +35,12 @@ GROWTH = 6  # by how much c^2 grows while the object turns, see `resistance`
 SHAPE = 7  # how far c^2 depends on the direction of motion, see `resistance`
 UNKNOWNS = 8
 
-LASTING = 5e-3  # way over which errors last and a change of the motion is felt [m]
+LASTING = 5e-3  # way over which errors last, and over which the motion is averaged [m]
 SHORTEST = 1e-9  # way that counts as none [m]
-STEEPEST_FORCE = 3.0  # tangent of a force's angle that counts
-LEAST_LOG_C, MOST_LOG_C = math.log(1e-4), math.log(10.0)  # c that counts as none, as any [ln m]
-NEVER = 1e-18  # a variance up to this, in units of the unknown, is none
+STEEPEST_FORCE = 3.0  # bound on the tangent of a force's angle, or a lever would grow without end
+# Bounds on ln(c/1 m) at a point of the cubature: 0.1 mm and 10 m, beyond all objects.
+LEAST_LOG_C, MOST_LOG_C = math.log(1e-4), math.log(10.0)
+NEVER = 1e-18  # a variance up to this is rounding of 0, in units of the unknown
 
 
 class ModelErrors(NamedTuple):
@@ -322,8 +323,8 @@ def correct(
 ) -> float:
     """Correct all hypotheses by a reading of theta.
 
-    A reading is an outlier, anywhere in the half turn that the sensor sees, with a small
-    probability. A hypothesis that finds this likelier keeps its mean.
+    With a small probability a reading is an outlier, anywhere in the half turn that the sensor
+    sees. A hypothesis under which this is likelier keeps its mean.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Where an object is of which the outline is known, but not the edge that is pushed."""
+"""Where an object is whose outline is known, but not the edge that the finger pushes."""
 
 import math
 from collections.abc import Sequence
@@ -22,7 +22,7 @@ from tactile_push.mechanics.compiled import Array
 from tactile_push.paper import FINGER_RADIUS
 
 ALIKE = 1e-6  # of lengths and weights, in units of themselves
-EDGE_EXCLUDED = 0.01  # an edge with that much of the best one's weight is no part of the intervals
+EDGE_EXCLUDED = 0.01  # weight of an edge, of the best one's, that the 95 % intervals leave out
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,8 +74,8 @@ class ObjectEstimate:
 class ObjectEstimator:
     """Follows the contact under every edge that may be pushed, and weighs the edges.
 
-    Before any data the finger is as likely anywhere on the outline. Edges that lie the same way to
-    the centre of mass, as opposite edges of a rectangle, turn alike and share their estimate: no
+    Before any data the finger is equally likely anywhere on the outline. Edges that lie alike to
+    the centre of mass, such as opposite edges of a rectangle, share one estimate, because no
     reading of theta tells them apart.
 
     Parameters
@@ -186,7 +186,7 @@ class ObjectEstimator:
         found, possible = self._contenders.estimates, self._contenders.possible
         estimates = tuple(found[i] for i in self._place_of)
         weights = self._contenders.weights[self._place_of] * self._shares
-        # Of equally likely edges the first, whatever rounding says.
+        # The first of equally likely edges, so that rounding does not choose.
         best = int(np.argmax(weights > (1.0 - ALIKE) * weights.max()))
         likely = weights > EDGE_EXCLUDED * weights.max()
         bounded = [possible[i] for i in self._place_of]

@@ -4,10 +4,10 @@
 
 from tactile_push.simulation.batch import Rollouts, rollouts
 from tactile_push.simulation.belt import Belt
-from tactile_push.simulation.device import DeviceServer, serve
+from tactile_push.simulation.device_server import DeviceServer, serve
 from tactile_push.simulation.experiment import experiment
 from tactile_push.simulation.faults import Faults
-from tactile_push.simulation.files import read_object, read_support
+from tactile_push.simulation.object_files import read_object, read_support
 from tactile_push.simulation.rig import Rig, RigConfig, paper_block, paper_disk
 from tactile_push.simulation.rollout import Rollout, rollout
 from tactile_push.simulation.sensor import Readout, Sample, Sensor

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""All that may go wrong with the rig, in one place."""
+"""All faults of the rig in one place."""
 
 from dataclasses import dataclass
 

@@ -10,15 +10,13 @@ LONGEST_LOOK = 0.05  # between two looks more than this is no waiting: nobody lo
 class Pace:
     """Paces simulated time: no faster than asked, and never ahead of the loop it closes.
 
-    Simulated time waits for two things. It does not pass the moment at which the next command is
-    due before that command is there. And it does not go on before the last reading has become a
-    contact with the reading's own stamp: a driver that reads late would stamp with a later time
-    than the sensor's. So a loaded machine makes an experiment slower, not different. A reading from
-    which no contact need follow, because it is lost, tells of none or is an outlier, is not waited
-    for: that would cost the patience each time. After
-    `patience` of wall time Pace no longer waits for what is overdue, until it comes again: somebody
-    has gone. While this process itself stands still it waits for nothing: what is overdue may lie
-    here unread.
+    Simulated time waits for two things: for the next command when it is due, and for a contact with
+    the stamp of the last reading, because a driver that reads late would stamp it with a later
+    time. So a loaded machine makes an experiment slower, not different. Time does not wait for the
+    contact of a reading that is lost, tells of no contact or is an outlier: none need follow.
+    After `patience` of wall time it no longer waits for what is overdue, until that comes again:
+    whoever sends it has gone. Time in which this process itself stood still does not count, since
+    what is overdue may lie here unread.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""A pushed edge that is not equally rough everywhere."""
+"""A pushed edge whose friction varies along it."""
 
 import math
 from dataclasses import dataclass

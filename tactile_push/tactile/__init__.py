@@ -3,7 +3,6 @@
 """From a reading of the tactile sensor to a contact in the plane of motion (Section V.A)."""
 
 from tactile_push.tactile.contact_finder import REFUSALS, ContactFinder
-from tactile_push.tactile.finger import FingerPose, OutOfReachError, PlanarFinger, pole_angle
 from tactile_push.tactile.hemisphere import (
     Contact,
     ReadingRejectedError,
@@ -12,6 +11,7 @@ from tactile_push.tactile.hemisphere import (
     reading_of_contact,
 )
 from tactile_push.tactile.jumps import JUMP_TOLERANCE, MAX_THETA_RATE, JumpGuard
+from tactile_push.tactile.planar_finger import FingerPose, OutOfReachError, PlanarFinger, pole_angle
 from tactile_push.tactile.pole_history import BELIEVED, PoleHistory
 from tactile_push.tactile.reading import NO_CONTACT, Reading
 from tactile_push.tactile.reading_state import reading_values

@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""From readings and joint angles as they come to contacts, with what is amiss refused."""
+"""From readings and joint angles to contacts; readings that tell of none are refused."""
 
 import math
 from collections.abc import Iterable
 
-from tactile_push.tactile.finger import pole_angle
 from tactile_push.tactile.hemisphere import Contact, ReadingRejectedError, contact_of_reading
 from tactile_push.tactile.jumps import JUMP_TOLERANCE, MAX_THETA_RATE, JumpGuard
+from tactile_push.tactile.planar_finger import pole_angle
 from tactile_push.tactile.pole_history import BELIEVED, PoleHistory
 from tactile_push.tactile.reading import Reading
 
@@ -30,16 +30,14 @@ REFUSALS = (  # the reasons by which readings are refused; '' for none
 class ContactFinder:
     """Finds the contact that each reading tells of, and refuses readings that tell of none.
 
-    It has no clock: what it gives follows from the stamps and numbers it was given, in the order
-    in which they came.
+    It has no clock: the same stamps and numbers in the same order give the same contacts.
 
-    The stamps of readings are expected to increase. One that is not newer than the one before
-    came late or twice and is refused, so the contacts' stamps increase strictly. `BELIEVED`
-    readings in a row that are not newer, yet each newer than the one before it, mean that the
-    clock was set back: the last of them is taken like a very first reading. A reading that
-    comes again and again is never believed. One that is refused for its joint state is no measure
-    for the next, so a single stamp far in the future does not stop the readings after it where the
-    finger turns.
+    The stamps of readings should increase. A reading that is not newer than the last one came late
+    or twice and is refused, so the contacts' stamps increase strictly. `BELIEVED` readings in a row
+    that are not newer than the last one, but each newer than the one before it, mean that the clock
+    was set back: the last of them counts as a first reading. A reading that is repeated never does.
+    Later readings are not compared with one that was refused for its joint state, so a single stamp
+    far in the future does not stop them if the finger turns.
 
     Parameters
     ----------

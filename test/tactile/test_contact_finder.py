@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 import tactile_push
 from tactile_push.control import PushLaw, finger_velocity
+from tactile_push.pipeline.geometry import NEGATIVE_STAMP, UNREADABLE
 from tactile_push.simulation import Rig, paper_block
 from tactile_push.tactile import (
     NO_CONTACT,
@@ -354,7 +355,7 @@ def test_same_events_give_the_same_outcome(events):
 
 
 def test_every_reason_by_which_a_reading_is_refused_has_a_number():
-    said = set()
+    said = {NEGATIVE_STAMP, UNREADABLE}  # before the finder
     for file in Path(tactile_push.__file__).parent.rglob('*.py'):
         for node in ast.walk(ast.parse(file.read_text())):
             raised = isinstance(node, ast.Call) and getattr(node.func, 'id', '')
