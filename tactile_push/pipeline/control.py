@@ -124,19 +124,10 @@ class Control:
 
 
 def edge_angle(frame: str, x: float, y: float, z: float, w: float) -> float:
-    """Return the angle of the edge that a message of `contact` tells of.
+    """Return the angle [rad] of the edge that a message of `contact` tells of.
 
-    Parameters
-    ----------
-    frame : str
-        Frame of the message; an empty one is taken for `finger_disk`.
-    x, y, z, w : float
-        Quaternion of the pose.
-
-    Returns
-    -------
-    float
-        theta [rad]; NaN if the message is in another frame or the rotation is not about z.
+    It is NaN if the message is in another frame than `finger_disk` or the quaternion x, y, z, w is
+    no rotation about z. An empty frame is taken for `finger_disk`.
     """
     if frame and not frame.endswith(FINGER_DISK):  # a second finger's may have a prefix
         return math.nan

@@ -22,79 +22,23 @@ Output = tuple[str, Fields]
 
 
 def joint_state_fields(stamp: Stamp, values: Mapping[str, float]) -> Fields:
-    """Return the fields of a sensor_msgs/JointState with names and positions only.
-
-    Parameters
-    ----------
-    stamp : tuple of int
-        Time [s, ns].
-    values : mapping of str to float
-        Positions by name.
-
-    Returns
-    -------
-    dict
-        Fields by name.
-    """
+    """Return the fields of a JointState with positions by name."""
     header = _header(stamp, '')
     return {'header': header, 'name': list(values), 'position': list(values.values())}
 
 
 def contact_fields(stamp: Stamp, x: float, y: float, theta: float) -> Fields:
-    """Return the fields of a geometry_msgs/PoseStamped that tells a contact.
-
-    Parameters
-    ----------
-    stamp : tuple of int
-        When the sensor was read [s, ns].
-    x, y : float
-        Contact point in `finger_disk` [m].
-    theta : float
-        Angle of the pushed edge [rad].
-
-    Returns
-    -------
-    dict
-        Fields by name.
-    """
+    """Return the fields of a PoseStamped: the contact point [m] and theta [rad]."""
     return {'header': _header(stamp, FINGER_DISK), 'pose': _pose(x, y, theta)}
 
 
 def command_fields(stamp: Stamp, v_x: float) -> Fields:
-    """Return the fields of a geometry_msgs/TwistStamped that commands the finger.
-
-    Parameters
-    ----------
-    stamp : tuple of int
-        When the command was decided on [s, ns].
-    v_x : float
-        Velocity across the belt [m/s].
-
-    Returns
-    -------
-    dict
-        Fields by name.
-    """
+    """Return the fields of a TwistStamped: the finger's velocity across the belt [m/s]."""
     return {'header': _header(stamp, FINGER_BASE), 'twist': {'linear': {'x': v_x}}}
 
 
 def object_pose_fields(stamp: Stamp, pose: Array, covariance: Array) -> Fields:
-    """Return the fields of a geometry_msgs/PoseWithCovarianceStamped that tells the object's pose.
-
-    Parameters
-    ----------
-    stamp : tuple of int
-        When the object was there [s, ns].
-    pose : ndarray, shape (3,)
-        x, y of the centre of mass in `finger_disk` [m] and angle of the object [rad].
-    covariance : ndarray, shape (3, 3)
-        Covariance of `pose`.
-
-    Returns
-    -------
-    dict
-        Fields by name.
-    """
+    """Return the fields of a PoseWithCovarianceStamped: x, y [m] and angle [rad] of the object."""
     uncertain = {
         'pose': _pose(*pose.tolist()),
         'covariance': covariance_in_space(covariance.tolist()),

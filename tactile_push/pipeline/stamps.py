@@ -18,52 +18,15 @@ Seconds = Callable[[int, int], float]
 
 
 def epoch_of(sec: int) -> int:
-    """Return the epoch for times about a given one.
-
-    Parameters
-    ----------
-    sec : int
-        Seconds since 1970, or since the start of simulated time.
-
-    Returns
-    -------
-    int
-        The epoch [s], on the same clock.
-    """
+    """Return the epoch [s] for times about a given one [s], on the same clock."""
     return sec // LENGTH * LENGTH
 
 
 def seconds_since(epoch: int, sec: int, nanosec: int) -> float:
-    """Return the time of a stamp.
-
-    Parameters
-    ----------
-    epoch : int
-        Time from which the result counts [s].
-    sec, nanosec : int
-        The stamp [s, ns].
-
-    Returns
-    -------
-    float
-        Time [s].
-    """
+    """Return the time of a stamp [s, ns] since an epoch [s]."""
     return sec - epoch + nanosec * 1e-9
 
 
 def stamp_before(sec: int, nanosec: int, age: float) -> tuple[int, int]:
-    """Return the stamp of something that was older at a given stamp.
-
-    Parameters
-    ----------
-    sec, nanosec : int
-        The stamp [s, ns].
-    age : float
-        How much older it was [s].
-
-    Returns
-    -------
-    sec, nanosec : int
-        The earlier stamp [s, ns]; 0 if it lies before the start of the clock.
-    """
+    """Return the stamp [s, ns] of what was older by an age [s]; at least 0."""
     return divmod(max(0, sec * 10**9 + nanosec - round(1e9 * age)), 10**9)

@@ -56,20 +56,7 @@ class SensedTick(NamedTuple):
 
     @classmethod
     def of(cls, time: float, values: Mapping[str, float]) -> 'SensedTick':
-        """Take it from the numbers of `active_sensing/state`.
-
-        Parameters
-        ----------
-        time : float
-            Since the beginning of the bag [s].
-        values : mapping of str to float
-            The numbers by name.
-
-        Returns
-        -------
-        SensedTick
-            What they say of d.
-        """
+        """Take what the numbers of `active_sensing/state` say of d at a time [s]."""
         return cls(time, *(values[name] for name in cls._fields[1:]))
 
     def as_json(self) -> dict[str, object]:
@@ -119,42 +106,20 @@ class Comparison:
     _last_kept: int = field(default=0, repr=False)  # its stamp [ns]
 
     def count(self, felt: Felt) -> None:
-        """Count a reading.
-
-        Parameters
-        ----------
-        felt : Felt
-            What came of it.
-        """
+        """Count a reading."""
         self.readings += 1
         self.contacts += felt.contact is not None
         if felt.refusal:
             self.refused[felt.refusal] = self.refused.get(felt.refusal, 0) + 1
 
     def keep(self, stamp: int) -> None:
-        """Count a control period that is kept as recorded.
-
-        Parameters
-        ----------
-        stamp : int
-            Its stamp [ns].
-        """
+        """Count a control period that is kept as recorded, by its stamp [ns]."""
         self.kept += 1
         self.went_back += stamp < self._last_kept
         self._last_kept = stamp
 
     def add(self, time: float, tick: Tick, recorded: Tick | None) -> None:
-        """Take a control period.
-
-        Parameters
-        ----------
-        time : float
-            Since the beginning of the bag [s].
-        tick : Tick
-            As it is now.
-        recorded : Tick or None
-            As it was.
-        """
+        """Take a control period at a time [s], as it is now and as it was recorded."""
         self.recorded = recorded is not None
         self.ticks.append(
             ReplayedTick(
@@ -169,7 +134,7 @@ class Comparison:
         )
 
     def different(self) -> list[ReplayedTick]:
-        """Give the control periods whose command is not to the bit what was commanded."""
+        """Return the control periods whose command is not to the bit what was commanded."""
         if not self.recorded:
             return []
         return [

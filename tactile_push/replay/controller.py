@@ -55,21 +55,7 @@ class ReplayedController:
 
     `push_controller/state` says when the node ticked, which contact and which position of the
     finger were the newest, and what happened otherwise: an activation, another node's command, a
-    clock that was set, a resume. The rest follows.
-
-    Parameters
-    ----------
-    values : PushControllerParameters
-        The node's parameters.
-    overridden : collection of str
-        Parameters that do not follow the bag.
-    epoch : int
-        Time from which times count [s].
-
-    Attributes
-    ----------
-    step : Control
-        What the node runs, with the law of the last tick.
+    clock that was set, a resume. The rest follows. Overridden parameters do not follow the bag.
     """
 
     def __init__(

@@ -19,14 +19,13 @@ from tactile_push.interface import (
     SENSING_STATE,
     TOPICS,
     TRUE_STATE,
-    fingers,
 )
 from tactile_push.paper import object_with
 from tactile_push.parameters import ActiveSensingParameters
 from tactile_push.parameters.estimator import make_sensing
 from tactile_push.pipeline import Sensing, by_name
 from tactile_push.pipeline.stamps import epoch_of, seconds_since
-from tactile_push.replay.messages import stamp_of
+from tactile_push.replay.messages import fingers_of, stamp_of
 from tactile_push.replay.new_bag import new_bag
 from tactile_push.replay.object_history import ObjectFigures, ObjectHistory
 from tactile_push.replay.parameters import FingerParameters, ParameterFile
@@ -74,7 +73,12 @@ def estimate(
     OSError
         If a file cannot be read, or the new bag cannot be written.
     """
-    namespaces = _namespaces(bag)
+    namespaces = list(fingers_of(bag, [CONTROLLER_STATE], INPUTS))
+    if not namespaces:
+        raise BagError(
+            f'{bag.path}: no control periods, expected a topic {CONTROLLER_STATE}: nobody knows '
+            'how the finger moved'
+        )
     file = ParameterFile(config)
     file.check(namespaces, [ACTIVE_SENSING])
     seconds = partial(seconds_since, epoch_of(bag.start_time // 10**9))
@@ -119,21 +123,3 @@ def estimate(
                 for topic, fields in sensed.outputs():
                     new.write(f'{namespace}/{topic}', fields, message.log_time)
     return [history.figures() for history in histories.values()]
-
-
-def _namespaces(bag: BagReader) -> list[str]:
-    """Return the namespaces of the fingers that the bag has control periods of."""
-    found = fingers((name for name in bag.topics if bag.counts[name]), [CONTROLLER_STATE])
-    if not found:
-        raise BagError(
-            f'{bag.path}: no control periods, expected a topic {CONTROLLER_STATE}: nobody knows '
-            'how the finger moved'
-        )
-    for namespace in found:
-        for topic in INPUTS:
-            known, expected = bag.topics.get(f'{namespace}/{topic}'), TOPICS[topic].type_name
-            if known is not None and known.type_name != expected:
-                raise BagError(
-                    f'{bag.path}: {known.name}: expected {expected}, got {known.type_name}'
-                )
-    return list(found)

@@ -49,25 +49,8 @@ Handler = Callable[[Message], None]
 class Finger:
     """Replays one finger.
 
-    Parameters
-    ----------
-    namespace : str
-        Its namespace, '' or such as '/left'.
-    topics : collection of str
-        Its topics in the bag, without the namespace.
-    parameters : FingerParameters
-        Those of its nodes.
-    bag : BagReader
-        The bag.
-
-    Attributes
-    ----------
-    handlers : dict of str to callable
-        What takes the messages of each topic that the replay needs, without the namespace.
-    comparison : Comparison
-        How the commands compare.
-    new_bag : NewBag or None
-        Gets the messages, if it is set.
+    `handlers` take the messages of each topic that the replay needs, by its name without the
+    namespace. What comes of them goes to `comparison` and, if that is set, to `new_bag`.
     """
 
     def __init__(
@@ -139,15 +122,7 @@ class Finger:
         return sensing
 
     def change(self, node: str, values: Mapping[str, Any]) -> None:
-        """Take values of parameters that changed, unless somebody wants them otherwise.
-
-        Parameters
-        ----------
-        node : str
-            Full name of the node.
-        values : mapping of str to object
-            Its new values by name.
-        """
+        """Take changed values of a node, by its full name, that nobody wants otherwise."""
         for own, taker, kind in (
             (CONTACT_GEOMETRY, self._geometry, ContactGeometryParameters),
             (PUSH_CONTROLLER, self._controller, PushControllerParameters),

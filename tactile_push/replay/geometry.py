@@ -28,18 +28,6 @@ class ReplayedGeometry:
     travelled, which a bag does not tell. `contact_geometry/state` has the readings in the order in
     which the node took them, and for each how far the joints had turned. Without that topic,
     readings and joint states are taken in the bag's order.
-
-    Parameters
-    ----------
-    values : ContactGeometryParameters
-        The node's parameters.
-    epoch : int
-        Time from which times count [s].
-
-    Attributes
-    ----------
-    step : Geometry
-        What the node runs.
     """
 
     def __init__(self, values: ContactGeometryParameters, epoch: int) -> None:

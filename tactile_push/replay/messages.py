@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a replay reads from decoded messages and what it hands on."""
+"""What a replay reads from a bag and its messages, and what it hands on."""
 
+from collections.abc import Collection
 from typing import Any, NamedTuple
 
-from tactile_push.bags import Message
+from tactile_push.bags import BagError, BagReader, Message
 from tactile_push.control import Tick
+from tactile_push.interface import TOPICS, fingers
 from tactile_push.pipeline import Output, Stamp
 
 Written = Message | tuple[Output, int]
@@ -29,3 +31,19 @@ def stamp_of(message: Any) -> Stamp:
 def nanoseconds(stamp: Stamp) -> int:
     """Return the time of a stamp [ns]."""
     return stamp[0] * 10**9 + stamp[1]
+
+
+def fingers_of(
+    bag: BagReader, having: Collection[str], needed: Collection[str]
+) -> dict[str, set[str]]:
+    """Return the topics with messages of each finger that has one of some topics, by namespace.
+
+    Raises BagError if a needed topic has another type than the package's.
+    """
+    found = fingers((name for name in bag.topics if bag.counts[name]), having)
+    for namespace, topics in found.items():
+        for topic in sorted(topics.intersection(needed)):
+            expected, got = TOPICS[topic].type_name, bag.topics[f'{namespace}/{topic}'].type_name
+            if got != expected:
+                raise BagError(f'{bag.path}: {namespace}/{topic}: expected {expected}, got {got}')
+    return found

@@ -35,25 +35,8 @@ def new_bag(
 ) -> Iterator[NewBag]:
     """Write a bag with the topics and notes of another one; if anything fails, no bag is left.
 
-    Parameters
-    ----------
-    out : path
-        Folder of the bag to write, not there yet.
-    bag : BagReader
-        The other bag.
-    made : mapping of str to str
-        Types of the topics that are made anew, by full name. The new bag has them even if the other
-        one does not.
-
-    Yields
-    ------
-    NewBag
-        The bag, without messages.
-
-    Raises
-    ------
-    OSError
-        If it cannot be written; with its name.
+    `made` has the types of the topics that are made anew, by full name; the new bag has these
+    topics even if the other one does not. An OSError tells the name of the new bag.
     """
     writer = BagWriter(out)
     try:

@@ -23,40 +23,20 @@ ROUNDING = 1e-9  # of a length [m]
 
 @dataclass(frozen=True)
 class Contradiction:
-    """A time during which the readings contradicted the object.
+    """A time during which the readings contradicted the object."""
 
-    Parameters
-    ----------
-    reason : str
-        Why: one of `CONTRADICTIONS`.
-    at : float
-        When it began [s], from the start of the bag.
-    duration : float
-        How long it lasted [s]; up to the last control period if it did not end in the bag.
-    ended : bool
-        Whether it ended in the bag.
-    """
-
-    reason: str
-    at: float
-    duration: float
+    reason: str  # one of `CONTRADICTIONS`
+    at: float  # when it began [s], from the start of the bag
+    duration: float  # [s]; up to the last control period if it did not end in the bag
     ended: bool
 
 
 @dataclass(frozen=True)
 class Forgotten:
-    """A moment at which everything was forgotten.
-
-    Parameters
-    ----------
-    reason : str
-        Why.
-    at : float
-        When [s], from the start of the bag.
-    """
+    """A moment at which everything was forgotten."""
 
     reason: str
-    at: float
+    at: float  # [s], from the start of the bag
 
 
 @dataclass(frozen=True)
@@ -110,16 +90,8 @@ class ObjectFigures:
 class ObjectHistory:
     """Takes one control period after the other.
 
-    Parameters
-    ----------
-    finger : str
-        Namespace of the finger, '' for the root.
-    start : int
-        First log time of the bag [ns].
-    object_told : bool
-        Whether somebody said what is pushed.
-    pushed : str
-        Which object of the paper it is, `OTHER` if it is none.
+    `start` is the first log time of the bag [ns]. `pushed` is the object of the paper that the
+    finger pushes, `OTHER` if it is none; `object_told` says whether somebody named the object.
     """
 
     def __init__(self, finger: str, start: int, object_told: bool, pushed: str) -> None:

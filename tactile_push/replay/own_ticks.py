@@ -16,20 +16,7 @@ from tactile_push.replay.messages import Replayed, nanoseconds
 
 
 class OwnTicks:
-    """Runs the law at its own rate on the contacts' stamps, from the first contact on.
-
-    Parameters
-    ----------
-    values : PushControllerParameters
-        The node's parameters.
-    epoch : int
-        Time from which times count [s].
-
-    Attributes
-    ----------
-    step : Control
-        What the node runs.
-    """
+    """Runs the law at its own rate on the contacts' stamps, from the first contact on."""
 
     def __init__(self, values: PushControllerParameters, epoch: int) -> None:
         self._seconds = partial(seconds_since, epoch)

@@ -43,19 +43,9 @@ ByNode = dict[str, dict[str, Any]]
 
 
 class ParameterFile:
-    """A ROS parameter file, as `--params-file` takes it.
+    """A ROS parameter file, as `--params-file` takes it; None stands for one without values.
 
-    Parameters
-    ----------
-    file : path or None
-        The file; None stands for one without values.
-
-    Raises
-    ------
-    ValueError
-        If it is no such file.
-    OSError
-        If it cannot be read.
+    Raises ValueError if it is no such file, and OSError if it cannot be read.
     """
 
     def __init__(self, file: Path | None) -> None:
@@ -63,22 +53,9 @@ class ParameterFile:
         self._sections = list(_sections(file))
 
     def values(self, namespace: str) -> ByNode:
-        """Return the parameters of a finger's nodes.
+        """Return the parameters of a finger's nodes by node and name.
 
-        Parameters
-        ----------
-        namespace : str
-            Namespace, '' or such as '/left'.
-
-        Returns
-        -------
-        dict
-            Values by node and name.
-
-        Raises
-        ------
-        ValueError
-            If a section has no parameters, or a name looks like a slip.
+        Raises ValueError if a section has no parameters, or a name looks like a slip.
         """
         values: ByNode = {node: {} for node in NODES}
         for pattern, section in self._sections:
@@ -124,14 +101,9 @@ class ParameterFile:
 class FingerParameters(NamedTuple):
     """Parameters of a finger's nodes.
 
-    Parameters
-    ----------
-    recorded : dict
-        Values in the bag by node and name.
-    wanted : dict
-        Values that somebody wants instead, which do not follow the bag.
-    senses : bool
-        Whether `active_sensing` was recorded or somebody asks for it by its name.
+    `recorded` are the values in the bag by node and name. `wanted` are those that somebody wants
+    instead; they do not follow the bag. `senses` says whether `active_sensing` was recorded or
+    somebody asks for it by its name.
     """
 
     recorded: ByNode
@@ -146,29 +118,7 @@ class FingerParameters(NamedTuple):
         file: ParameterFile,
         wanted: Mapping[str, Mapping[str, Any]],
     ) -> 'FingerParameters':
-        """Collect the parameters of a finger's nodes.
-
-        Parameters
-        ----------
-        notes : mapping of str to str
-            Notes of the bag.
-        namespace : str
-            Namespace, '' or such as '/left'.
-        file : ParameterFile
-            Values to use instead of the recorded ones.
-        wanted : mapping of str to mapping
-            Values by node and name to use instead of both.
-
-        Returns
-        -------
-        FingerParameters
-            The parameters.
-
-        Raises
-        ------
-        ValueError
-            If the file is refused.
-        """
+        """Collect the notes of a bag, a file, and values by node that come before both."""
         everything = json.loads(notes.get(PARAMETERS_NOTE, '{}'))
         recorded = {node: everything.get(node_in(namespace, node), {}) for node in NODES}
         in_file = file.values(namespace)
@@ -201,15 +151,7 @@ class FingerParameters(NamedTuple):
     def without_effect(self, topics: Collection[str]) -> list[str]:
         """Return the parameters that somebody wants otherwise, but that the bag decides.
 
-        Parameters
-        ----------
-        topics : collection of str
-            Topics of the finger in the bag, without the namespace.
-
-        Returns
-        -------
-        list of str
-            Such as ``'push_controller: control_rate'``.
+        They are told as ``'push_controller: control_rate'``.
         """
         return [
             f'{node}: {known.name}'
@@ -222,32 +164,10 @@ class FingerParameters(NamedTuple):
 
 
 def changed_parameters(event: Any) -> tuple[str, dict[str, Any]]:
-    """Read a message of /parameter_events.
-
-    Parameters
-    ----------
-    event : rcl_interfaces/ParameterEvent
-        The message.
-
-    Returns
-    -------
-    node : str
-        Full name of the node.
-    values : dict of str to object
-        Its changed values by name.
-    """
-    fields = (
-        '',
-        'bool_value',
-        'integer_value',
-        'double_value',
-        'string_value',
-        'byte_array_value',
-        'bool_array_value',
-        'integer_array_value',
-        'double_array_value',
-        'string_array_value',
-    )
+    """Return the node and the changed values by name of a message of /parameter_events."""
+    arrays = ('byte_array', 'bool_array', 'integer_array', 'double_array', 'string_array')
+    kinds = ('bool', 'integer', 'double', 'string', *arrays)
+    fields = ('', *(f'{kind}_value' for kind in kinds))  # by the number of the type
     return event.node, {
         changed.name: getattr(changed.value, fields[changed.value.type])
         for changed in event.changed_parameters

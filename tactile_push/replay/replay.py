@@ -21,10 +21,10 @@ from tactile_push.interface import (
     SENSING_STATE,
     TACTILE,
     TOPICS,
-    fingers,
 )
 from tactile_push.replay.comparison import Comparison
 from tactile_push.replay.finger import Finger
+from tactile_push.replay.messages import fingers_of
 from tactile_push.replay.new_bag import new_bag
 from tactile_push.replay.parameters import FingerParameters, ParameterFile, changed_parameters
 
@@ -76,7 +76,9 @@ def replay(
     OSError
         If a file cannot be read, or the new bag cannot be written.
     """
-    found = _fingers(bag)
+    found = fingers_of(bag, READINGS, {TACTILE, JOINT_STATES, *MADE, *SENSED})
+    if not found:
+        raise BagError(f'{bag.path}: nothing to replay, expected a topic tactile or contact')
     file = ParameterFile(config)
     file.check(found)
     replayed = []
@@ -113,16 +115,3 @@ def replay(
         for _, finger in replayed:
             finger.finish()
     return [finger.comparison for _, finger in replayed]
-
-
-def _fingers(bag: BagReader) -> dict[str, set[str]]:
-    """Return the topics of each finger that has readings."""
-    found = fingers((name for name in bag.topics if bag.counts[name]), READINGS)
-    if not found:
-        raise BagError(f'{bag.path}: nothing to replay, expected a topic tactile or contact')
-    for namespace, topics in found.items():
-        for topic in topics & {TACTILE, JOINT_STATES, *MADE, *SENSED}:
-            expected, got = TOPICS[topic].type_name, bag.topics[f'{namespace}/{topic}'].type_name
-            if got != expected:
-                raise BagError(f'{bag.path}: {namespace}/{topic}: expected {expected}, got {got}')
-    return found

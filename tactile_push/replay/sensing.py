@@ -25,22 +25,8 @@ class ReplayedSensing:
     A node that started after the controller did not hear the first control periods. If the node
     started before the recording, its memory is unknown. So what was recorded is kept until the node
     says that there was no reading before. At the end of a recording the node may not have come to
-    the last control periods yet.
-
-    Parameters
-    ----------
-    step : Sensing
-        What the node runs.
-    recorded : collection of str
-        Topics on which the node was recorded; those of the others are made from the beginning to
-        the end.
-    start : int
-        First log time of the bag [ns].
-
-    Attributes
-    ----------
-    sensed : list of SensedTick
-        What the control periods told.
+    the last control periods yet. A topic that was not recorded is made from the beginning to the
+    end.
     """
 
     def __init__(self, step: Sensing, recorded: Collection[str], start: int) -> None:
