@@ -6,7 +6,7 @@ import math
 import pytest
 
 from tactile_push.interface import NODES
-from tactile_push.parameters import PARAMETERS, NodeParameters, Parameter, config_file
+from tactile_push.parameters import PARAMETERS, NodeParameters, Parameter
 from tactile_push.parameters.parameter import parameter
 
 
@@ -136,8 +136,3 @@ def test_every_parameter_has_words_a_name_in_snake_case_and_its_unit():
         or not has_its_unit(declared)
     ]
     assert lacking == []
-
-
-@pytest.mark.parametrize('name', ['block.yaml', 'disk.yaml', 'loopback.xml', 'demo.rviz'])
-def test_files_are_found(name):
-    assert config_file(name).is_file()
