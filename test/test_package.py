@@ -1,64 +1,20 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""The package as a whole: imports, documentation, what has to be installed, and its command."""
+"""The package as a whole: imports, documentation and public names."""
 
 import ast
 import importlib
 import inspect
-import json
 import re
-import runpy
 import subprocess
 import sys
-import xml.etree.ElementTree as ElementTree
-from importlib.metadata import packages_distributions
-from pathlib import Path
 from types import FunctionType
 
 import pytest
 
-import tactile_push
-from tactile_push.cli import main
+from support.package import OF_POSIX, PARTS, POSIX, ROOT, TREE, imports, run_python
 
-ROOT = Path(tactile_push.__file__).parent
-TREE = ROOT.parent
-PARTS = sorted(
-    path.parent.name for path in ROOT.glob('*/__init__.py') if '__all__' in path.read_text()
-)
 CORE = ('tactile', 'control', 'estimation')
-ROS = re.compile(
-    r'rclpy|launch(_ros)?|ament_\w+|\w+_msgs|rcl_interfaces|builtin_interfaces|std_srvs'
-)
-# Not every system has these.
-POSIX = {'fcntl', 'grp', 'pty', 'pwd', 'resource', 'termios', 'tty'}
-OF_POSIX = {'nodes', 'playing', 'recording', 'testing', 'demo'}
-
-
-def imports(path, *, at_once=False):
-    """Return the names of all modules that a file imports, inside functions too or at once."""
-    tree = ast.parse(path.read_text())
-    names = set()
-    for node in tree.body if at_once else ast.walk(tree):
-        if isinstance(node, ast.Import):
-            names |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            assert node.level == 0, f'{path}: imports by dots are hard to follow'
-            names.add(node.module)
-    return names
-
-
-def imported_by(folder):
-    """Return the top-level modules that the files of a folder import."""
-    return {name.split('.')[0] for path in folder.rglob('*.py') for name in imports(path)}
-
-
-def run_python(program):
-    """Run a program in a fresh interpreter and return what it prints as JSON."""
-    done = subprocess.run(
-        [sys.executable, '-c', program], capture_output=True, text=True, timeout=120
-    )
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
 
 
 def test_every_part_imports_only_what_the_contracts_in_pyproject_allow():
@@ -123,156 +79,6 @@ def test_what_needs_no_ros_imports_nothing_that_only_posix_systems_have():
         and (names := imports(path, at_once=True) & POSIX)
     }
     assert found == {}
-
-
-# A program that begins with these lines finds no ROS 2.
-WITHOUT_ROS = (
-    'import sys\n'
-    f'for name in {sorted(filter(ROS.fullmatch, imported_by(ROOT)))}:\n'
-    '    sys.modules[name] = None\n'
-    "assert sys.modules['rclpy'] is None\n"
-)
-
-
-def test_commands_that_need_no_ros_run_without_it(tmp_path):
-    pytest.importorskip('plotly', reason='pip install plotly')
-    bag = str(TREE / 'test/data/block')
-    for words in (
-        ['info', bag],
-        ['diff', bag, bag],
-        ['replay', bag, '-o', str(tmp_path / 'again')],
-        ['estimate', bag],
-        ['report', bag, '-o', str(tmp_path / 'page.html')],
-        ['simulate', '--steps', '10'],
-        ['figures', '--help'],
-    ):
-        program = f'{WITHOUT_ROS}from tactile_push.cli import main\nsys.exit(main({words}))'
-        done = subprocess.run(
-            [sys.executable, '-c', program], capture_output=True, text=True, timeout=120
-        )
-        assert done.returncode == 0, (words, done.stderr)
-
-
-def test_library_is_imported_without_ros():
-    parts = [part for part in PARTS if part not in OF_POSIX]
-    assert {'mechanics', 'bags', 'figures', 'report', 'simulation'} <= set(parts)
-    found = run_python(
-        f'{WITHOUT_ROS}from importlib import import_module\n'
-        f'for part in {parts}:\n'
-        "    import_module(f'tactile_push.{part}')\n"
-        "print('[]')"
-    )
-    assert found == []
-
-
-NEEDS_ROS = (
-    "needs ROS 2: source a ROS 2 workspace, or on x86-64 Linux pip install 'tactile_push[ros]'"
-)
-
-
-@pytest.mark.parametrize('words', [['record'], ['play', 'bag'], ['demo']])
-def test_command_that_needs_ros_says_how_to_get_it(words):
-    program = f'{WITHOUT_ROS}from tactile_push.cli import main\nsys.exit(main({words}))'
-    done = subprocess.run(
-        [sys.executable, '-c', program], capture_output=True, text=True, timeout=60
-    )
-    assert (done.returncode, done.stdout) == (2, '')
-    assert done.stderr == f'tactile_push {words[0]}: {NEEDS_ROS}\n'
-
-
-def test_node_without_ros_says_how_to_get_it(tmp_path):
-    (tmp_path / 'sitecustomize.py').write_text(WITHOUT_ROS)
-    done = subprocess.run(
-        [sys.executable, '-m', 'tactile_push.nodes.sensor_driver'],
-        env={'PYTHONPATH': f'{tmp_path}:{TREE}'},
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
-    assert (done.returncode, done.stdout) == (2, '')
-    assert done.stderr == f'sensor_driver: {NEEDS_ROS}\n'
-
-
-def installed(requirements):
-    """Return the names of the projects that a list of requirements names."""
-    return {re.match(r'[\w-]+', line)[0].lower().replace('_', '-') for line in requirements}
-
-
-@pytest.fixture
-def setup(monkeypatch):
-    """Return what setup.py tells setuptools."""
-    given = {}
-    monkeypatch.setattr('setuptools.setup', lambda **words: given.update(words))
-    monkeypatch.chdir(TREE)
-    runpy.run_path('setup.py')
-    return given
-
-
-# What rosdep calls a module, where it is not the module's own name.
-KEYS = {
-    'lz4': 'mcap-ros2-support',
-    'mcap': 'mcap-ros2-support',
-    'mcap_ros2': 'mcap-ros2-support',
-    'mpl_toolkits': 'python3-matplotlib',
-    'zstandard': 'mcap-ros2-support',
-}
-NO_KEY = {'plotly'}  # the manual says how to install it
-OWN = {'tactile_push', 'support', 'faults', 'fuzzing', 'soaking', 'estimating', 'conftest'}
-
-
-def foreign(folder):
-    """Return the modules from elsewhere that the files of a folder import."""
-    return imported_by(folder) - sys.stdlib_module_names - OWN
-
-
-def test_setup_requires_what_the_package_imports_and_nothing_else(setup):
-    projects = packages_distributions()
-    modules = {name for name in foreign(ROOT) if not ROS.fullmatch(name)} - {'pytest'}
-    needed = {projects[name][0].lower().replace('_', '-') for name in modules}
-    assert installed(setup['install_requires']) == needed
-    assert all('x86_64' in line for line in setup['extras_require']['ros'])
-    assert installed(setup['extras_require']['ros']) == {
-        'ros-jazzy-common-interfaces',
-        'ros-jazzy-rclpy',
-    }
-
-
-def test_package_xml_names_what_is_imported():
-    package = ElementTree.parse(TREE / 'package.xml').getroot()
-    named = {element.text for element in package.iter('exec_depend')}
-    for_tests = named | {element.text for element in package.iter('test_depend')}
-
-    def keys(folder):
-        modules = foreign(folder) - NO_KEY
-        return {
-            KEYS.get(name, name if ROS.fullmatch(name) or name == 'rclpy' else f'python3-{name}')
-            for name in modules
-        }
-
-    assert keys(ROOT) | keys(TREE / 'launch') <= for_tests
-    assert 'python3-pytest' in for_tests
-
-
-def test_command_shows_its_help():
-    done = subprocess.run(
-        [sys.executable, '-m', 'tactile_push.cli', '--help'],
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
-    assert (done.returncode, done.stderr) == (0, '')
-    assert done.stdout.startswith('usage: tactile_push')
-    assert 'demo' in done.stdout
-
-
-@pytest.mark.parametrize('arguments', [[], ['nonsense'], ['demo', '--nonsense']])
-def test_command_refuses_what_it_does_not_know_with_status_2(capsys, arguments):
-    with pytest.raises(SystemExit) as ended:
-        main(arguments)
-    assert ended.value.code == 2
-    out, err = capsys.readouterr()
-    assert out == ''
-    assert 'error: ' in err
 
 
 def test_files_start_with_the_copyright_and_say_what_they_are():
