@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The one place that knows topics, fields, frames and nodes."""
 
+import ast
 import math
+import re
 import subprocess
 import sys
 from importlib.metadata import entry_points
@@ -10,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from support.interface_checks import topics_as_declared
 from tactile_push import interface
-from tactile_push.bags import BagReader
 from tactile_push.control import PushControl, PushLaw, tick_values
 from tactile_push.estimation import ActiveSensing, DiskEstimator, FingerMotion, sensing_values
 from tactile_push.interface import (
@@ -75,17 +77,52 @@ def test_fields_of_an_estimate():
 
 @pytest.mark.parametrize('name', ['block', 'stops'])
 def test_types_and_fields_of_recorded_topics(name):
-    with BagReader(Path(__file__).parent / 'data' / name) as bag:
-        seen = set()
-        for message in bag.messages():
-            topic = message.topic if message.topic in TOPICS else message.topic.lstrip('/')
-            if topic in seen or topic not in TOPICS:
-                continue
-            seen.add(topic)
-            assert bag.topics[message.topic].type_name == TOPICS[topic].type_name
-            if TOPICS[topic].fields:
-                assert tuple(bag.decode(message).name) == TOPICS[topic].field_names
+    seen = topics_as_declared(Path(__file__).parent / 'data' / name)
     assert {TACTILE, CONTACT, GEOMETRY_STATE, CONTROLLER_STATE} <= seen
+
+
+FRAMES = {interface.FINGER_BASE, interface.FINGER_DISK, interface.FINGERTIP}
+NOTES = {interface.PARAMETERS_NOTE, interface.VERSION_NOTE}
+NAMES = {name for name in TOPICS if '/' in name} | FRAMES | NOTES
+TAKES_A_TOPIC = re.compile('create_.*(publisher|subscription)|resolve_topic_name|count_publishers')
+
+
+def copies(source):
+    """Return what a source repeats of the interface, docstrings aside."""
+    tree = ast.parse(source)
+    prose = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and node.value in NAMES and id(node) not in prose:
+            yield node.value
+        elif isinstance(node, ast.List | ast.Tuple | ast.Set):
+            values = {item.value for item in node.elts if isinstance(item, ast.Constant)}
+            if len(values & set(NODES)) > 2:
+                yield 'a list of nodes'
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+            texts = [n.value for n in node.args if isinstance(n, ast.Constant)]
+            if TAKES_A_TOPIC.fullmatch(node.func.attr):
+                yield from (text for text in texts if text in TOPICS)
+
+
+FILES = sorted(
+    file
+    for file in PACKAGE.rglob('*.py')
+    if file != PACKAGE / 'interface.py' and PACKAGE / 'nodes' not in file.parents
+)
+
+
+def test_no_other_module_repeats_the_interface():
+    found = {file.relative_to(PACKAGE): list(copies(file.read_text())) for file in FILES}
+    assert {file: names for file, names in found.items() if names} == {}
+
+
+def test_copies_are_found_and_prose_is_none():
+    assert list(copies("TOPIC = 'push_controller/state'")) == ['push_controller/state']
+    assert list(copies("node.create_publisher(JointState, 'tactile', 10)")) == ['tactile']
+    assert list(copies("NODES = ('sim_plant', 'sensor_driver', 'bag_player')")) == [
+        'a list of nodes'
+    ]
+    assert list(copies("def f():\n    'finger_disk'\n    return 'contact'")) == []
 
 
 @pytest.mark.parametrize(

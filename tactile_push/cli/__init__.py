@@ -105,18 +105,7 @@ def command_parser() -> tuple[Parser, Commands]:
         description='Turn and locate objects by pushing them with one tactile finger.',
     )
     commands = parser.add_subparsers(required=True, metavar='COMMAND', dest='command')
-    for command in (
-        demo,
-        simulate,
-        figures,
-        record,
-        play,
-        replay,
-        estimate,
-        info,
-        diff,
-        report,
-    ):
+    for command in (demo, simulate, figures, record, play, replay, estimate, info, diff, report):
         command.add(commands)
     return parser, commands
 

@@ -122,10 +122,7 @@ def _rows(result: 'ObjectFigures') -> 'list[Row]':
     from tactile_push.cli.output import bounded
     from tactile_push.report.outcome import Row, known_row, step_words
 
-    rows = [
-        Row('control periods', str(len(result.ticks))),
-        Row('readings', str(result.readings)),
-    ]
+    rows = [Row('control periods', str(len(result.ticks))), Row('readings', str(result.readings))]
     values = result.values
     if values is None:
         rows.append(Row('d', 'never known'))

@@ -39,7 +39,7 @@ def add(commands: Commands) -> None:
         type=number('degrees between 0 and 180', 0.0, 180.0, closed=False),
         default=round(math.degrees(TOLERANCE), 9),
         metavar='DEG',
-        help='how near to its desired value theta counts as settled (default: %(default)g)',
+        help='how near to its desired value theta counts as settled (default: 3)',
     )
     option('--json', action='store_true', help='print one JSON object, SI units')
     info.set_defaults(run=_info)
@@ -49,10 +49,7 @@ def _info(options: argparse.Namespace) -> int:
     from tactile_push.cli.output import opened, plain, reading, warner
     from tactile_push.report.info import bag_info
 
-    with (
-        opened(options.bag, warner('info')) as bag,
-        reading(sum(bag.counts.values())) as progress,
-    ):
+    with opened(options.bag, warner('info')) as bag, reading(sum(bag.counts.values())) as progress:
         info = bag_info(bag, math.radians(options.band_deg), progress)
     if options.json:
         values = asdict(info)

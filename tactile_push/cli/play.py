@@ -7,6 +7,7 @@ from typing import NoReturn
 
 from tactile_push.cli.arguments import Commands, number
 from tactile_push.cli.become import become
+from tactile_push.interface import BAG_PLAYER
 
 CLOCK_RATE = 100.0  # unless another one is asked for [Hz]
 
@@ -52,4 +53,4 @@ def _play(options: argparse.Namespace) -> NoReturn:
         for name, value in vars(options).items()
         if name != 'run' and value not in (None, False)
     }
-    become('bag_player', given)
+    become(BAG_PLAYER, given)

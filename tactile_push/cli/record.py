@@ -4,11 +4,12 @@
 
 import argparse
 import os
-import sys
 from pathlib import Path
+from typing import NoReturn
 
-from tactile_push.cli.arguments import Commands, number
+from tactile_push.cli.arguments import Commands, Refused, number
 from tactile_push.cli.become import become
+from tactile_push.interface import BAG_RECORDER
 
 
 def add(commands: Commands) -> None:
@@ -55,27 +56,18 @@ def add(commands: Commands) -> None:
     record.set_defaults(run=_record, ros=True)
 
 
-def _record(options: argparse.Namespace) -> int:
+def _record(options: argparse.Namespace) -> NoReturn:
     if options.all and options.topics:
-        return _refuse('--all: expected no topics beside it')
+        raise Refused('--all: expected no topics beside it')
     if options.out is not None and os.path.lexists(options.out):
-        return _refuse(f'--out: {options.out}: is there already, expected a new folder')
-    parameters: dict[str, object] = {'compression': options.compression}
-    if options.topics:
-        parameters['topics'] = options.topics
-    if options.all:
-        parameters['all'] = True
-    if options.out is not None:
-        parameters['output'] = str(options.out)
-    if options.max_size is not None:
-        parameters['max_size'] = max(round(options.max_size * 1e6), 1)
-    if options.max_duration is not None:
-        parameters['max_duration'] = options.max_duration
-    if options.use_sim_time:
-        parameters['use_sim_time'] = True
-    become('bag_recorder', parameters)
-
-
-def _refuse(reason: str) -> int:
-    print(f'tactile_push record: {reason}', file=sys.stderr)
-    return 2
+        raise Refused(f'--out: {options.out}: is there already, expected a new folder')
+    given: dict[str, object] = {
+        'compression': options.compression,
+        'topics': options.topics,
+        'all': options.all,
+        'output': None if options.out is None else str(options.out),
+        'max_size': options.max_size and max(round(options.max_size * 1e6), 1),
+        'max_duration': options.max_duration,
+        'use_sim_time': options.use_sim_time,
+    }
+    become(BAG_RECORDER, {name: value for name, value in given.items() if value})

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tactile_push.cli.arguments import Commands, number
+from tactile_push.interface import PUSH_CONTROLLER, node_in
 
 if TYPE_CHECKING:
     from tactile_push.replay import Comparison
@@ -73,7 +74,7 @@ def _replay(options: argparse.Namespace) -> int:
         _print(comparisons)
     for comparison in comparisons:
         for parameter in comparison.without_effect:
-            warn(f'{options.config}: {parameter}: what the bag tells of it stays as recorded')
+            warn(f'{options.config}: {parameter}: has no effect, the bag says what came of it')
         if not comparison.ticks:
             print(f'tactile_push replay: {options.bag}: {_why_not(comparison)}', file=sys.stderr)
         elif comparison.kept and (gains or options.config is not None):
@@ -85,11 +86,11 @@ def _replay(options: argparse.Namespace) -> int:
 
 
 def _node(comparison: 'Comparison') -> str:
-    return f'/{comparison.finger}/push_controller' if comparison.finger else '/push_controller'
+    return f'/{node_in(comparison.finger, PUSH_CONTROLLER)}'
 
 
 def _why_not(comparison: 'Comparison') -> str:
-    """Say why no control period could be made."""
+    """Return why no control period could be computed."""
     if not comparison.kept:
         return f'{_node(comparison)}: no contact, so no control period'
     why = 'what they depend on is not in the bag'

@@ -28,12 +28,7 @@ SERVOS = {
     'lag 0.1 s, delay 0.3 s': Servo(time_constant=0.1, delay=0.3),
 }
 LEVELS = (20, 50, 100, 150, 200, 300, 400, LATEST)
-DOT: dict[str, Any] = {
-    'marker': 'o',
-    'linestyle': '',
-    'color': 'white',
-    'markeredgecolor': BLACK,
-}
+DOT: dict[str, Any] = {'marker': 'o', 'linestyle': '', 'color': 'white', 'markeredgecolor': BLACK}
 SWINGS, CREEPS = -1, -2
 SWINGING, CREEPING = '#F4C7AB', '0.87'
 
@@ -103,19 +98,9 @@ def gain_figure() -> matplotlib.figure.Figure:
 
 
 def settle_steps(mu_c: float, servo: Servo | None) -> npt.NDArray[np.int64]:
-    """Find the step from which theta stays in the band for all gains.
+    """Return the step from which theta stays in the band for each kd and kp, shape (41, 61).
 
-    Parameters
-    ----------
-    mu_c : float
-        Coefficient of friction between finger and object, 0 to infinity.
-    servo : Servo or None
-        How the finger follows its command.
-
-    Returns
-    -------
-    ndarray of int, shape (41, 61)
-        The step for each kd and kp; `SWINGS` or `CREEPS` where there is none.
+    Gains without such a step have `SWINGS` or `CREEPS`.
     """
     kp, kd = (gains.ravel() for gains in np.meshgrid(KP, KD))
     block = paper_block(d=D_INITIAL, mu_c=mu_c)

@@ -161,7 +161,7 @@ def _draw_wrench(axes: Axes3D, surface: EllipsoidalLimitSurface) -> None:
 
 
 def _on_sphere(longitude: npt.ArrayLike, latitude: npt.ArrayLike) -> Array:
-    """Give points on the unit sphere, of shape (..., 3)."""
+    """Return points on the unit sphere, of shape (..., 3)."""
     return np.stack(
         np.broadcast_arrays(
             np.cos(latitude) * np.cos(longitude),

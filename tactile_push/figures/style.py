@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What all figures of the paper have in common: sizes, fonts and colours for a publication."""
+"""Sizes, fonts and colours of all figures, fit for a publication."""
 
 import matplotlib.figure
 import matplotlib.style
@@ -10,7 +10,7 @@ ONE_COLUMN = 3.5  # width of a column of the journal [in]
 TWO_COLUMNS = 7.16
 CENTIMETRE = 100.0  # of a metre: figures show centimetres
 
-# Of the palette of Okabe and Ito, told apart by the colour-blind and in grey.
+# From the palette of Okabe and Ito: the colour-blind, and readers in grey, can tell them apart.
 BLACK = '#000000'
 BLUE = '#0072B2'
 ORANGE = '#E69F00'
@@ -43,22 +43,11 @@ styled = matplotlib.style.context(
         },
     ]
 )
-"""Decorator: matplotlib's defaults but for what makes figures fit for a publication."""
+"""Decorator that sets matplotlib's defaults with fonts and lines fit for a publication."""
 
 
 def new_figure(width: float, height: float) -> matplotlib.figure.Figure:
-    """Make an empty figure, which needs no display.
-
-    Parameters
-    ----------
-    width, height : float
-        Size [in].
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure.
-    """
+    """Return an empty figure of a size [in], which needs no display."""
     figure = matplotlib.figure.Figure(figsize=(width, height), layout='constrained')
     FigureCanvasAgg(figure)
     return figure

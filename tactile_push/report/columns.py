@@ -100,9 +100,7 @@ def topics_of(bag: BagReader, namespace: str) -> dict[str, str]:
 
 
 def read_tables(
-    bag: BagReader,
-    topics: Mapping[str, str],
-    progress: Callable[[int], None] = lambda count: None,
+    bag: BagReader, topics: Mapping[str, str], progress: Callable[[int], None] = lambda count: None
 ) -> tuple[Mapping[str, Table], Statuses]:
     """Read topics, as `topics_of` returns them, into columns by relative name; and diagnostics."""
     columns: dict[str, Columns] = defaultdict(Columns)

@@ -16,10 +16,7 @@ Label = tuple[str, str]
 
 
 def episodes(
-    lane: str,
-    time: npt.ArrayLike,
-    labels: Sequence[Label | None],
-    longest: float,
+    lane: str, time: npt.ArrayLike, labels: Sequence[Label | None], longest: float
 ) -> list[Episode]:
     """Return how long each label lasted, in the order of time.
 

@@ -88,7 +88,7 @@ def push_figures(
     time = states.get('time', np.empty(0))
     column = {name: states.get(name, np.full(len(time), math.nan)) for name in FIELDS}
     state = column['state']
-    # A bag that is older than the field tells it by theta.
+    # In a bag that is older than the field, theta is finite while the law acts.
     pushing = (state == STATES.index(PUSHING)) | (np.isnan(state) & np.isfinite(column['theta']))
     stopped = state == STATES.index(STOPPED)
     step = {name: column[name][pushing] for name in OF_STEPS}

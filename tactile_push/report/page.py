@@ -96,7 +96,7 @@ def _part(name: str) -> str:
 
 
 def _script() -> str:
-    """Give the page's own script, which leaves no names to the window."""
+    """Return the page's own script, which adds no names to the window."""
     parts = '\n'.join(_part(name) for name in SCRIPTS)
     return f'(() => {{\n{parts}}})();\n'
 
@@ -117,7 +117,7 @@ def _script_json(content: object) -> str:
 
 
 def _content(run: Run) -> dict[str, object]:
-    """Give what the page's script needs, as plain values."""
+    """Return what the page's script needs, as plain values."""
     moments = frame_times(run.duration)
     nothing = Series(np.empty(0), np.empty(0))
     frames: dict[str, object] = {'time': _numbers(moments, 4)}

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""A run as its bag tells it."""
+"""Read a run from its bag."""
 
 from collections.abc import Callable, Mapping
 from datetime import datetime, timezone
@@ -61,10 +61,10 @@ SOURCES = {
 }
 # What the controller can be doing, in words.
 DOING = (*STATES, *(f'{STOPPED}: {reason}' for reason in STOP_REASONS[1:]))
-# Refusals that are no fault: a finger in the air, and what came twice, which does no harm.
+# Refusals that are no fault: a finger in the air, and a reading that came twice.
 NO_FAULT = {'no contact': (NOTE, 'no contact'), 'not newer': None}
-TICK_LASTS = 1.0  # what the last tick says of the controller [s]
-STATUS_LASTS = 2.0  # what a node, which reports once a second, says of itself [s]
+TICK_LASTS = 1.0  # the last state of the controller counts for so long [s]
+STATUS_LASTS = 2.0  # a node's status counts for so long; it comes once a second [s]
 
 
 def messages_shown(bag: BagReader) -> int:

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from support.sensed_bag import DATA, POSE, STATE, TICKS, said_by_a_node, with_sensing
+from support.states import read_states
 from tactile_push.bags import BagError, BagReader, BagWriter
-from tactile_push.bags.states import read_states
 from tactile_push.cli import main
 from tactile_push.replay import estimate
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from geometry_msgs.msg import PoseStamped
 from sensor_msgs.msg import JointState
 
-from tactile_push.bags.states import read_states
+from support.states import read_states
 from tactile_push.parameters.config_file import config_file
 from tactile_push.testing import NodeProcesses, Observer
 from tactile_push.testing.observer import PATIENCE

@@ -9,11 +9,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from mcap.reader import make_reader
 
 from support.expected import FIGURE_8_END, FIGURE_8_SETTLE_STEP
+from support.interface_checks import topics_as_declared
 from tactile_push.bags import BagReader
 from tactile_push.cli import main
+from tactile_push.interface import CLOCK, PARAMETER_EVENTS, RECORDED
 from tactile_push.replay import replay
 
 COMMAND = [sys.executable, '-m', 'tactile_push.cli', 'demo', '--json']
@@ -46,20 +47,7 @@ def test_demo_settles_both_rigs_and_leaves_a_picture_and_bags(tmp_path: Path):
     assert (out / 'history.png').read_bytes().startswith(b'\x89PNG')
     for name in rigs:
         assert (out / name / 'metadata.yaml').exists()
-        (file,) = (out / name).glob('*.mcap')
-        with file.open('rb') as stream:
-            topics = {channel.topic for _, channel, _ in make_reader(stream).iter_messages()}
-        assert topics >= {
-            '/tactile',
-            '/contact',
-            '/finger/cmd_vel',
-            '/push_controller/state',
-            '/active_sensing/state',
-            '/object_pose',
-            '/ground_truth/state',
-            '/ground_truth/object_pose',
-            '/joint_states',
-        }
+        assert {*RECORDED} - {CLOCK, PARAMETER_EVENTS} <= topics_as_declared(out / name)
         with BagReader(out / name) as bag:
             (comparison,) = replay(bag, out=tmp_path / f'{name} again')
         assert len(comparison.ticks) > 400

@@ -7,8 +7,8 @@ from rosbags.rosbag2 import CompressionMode
 
 from support.bag_by_rosbags import JOINT_STATE, write_by_rosbags
 from support.bag_files import CLOCK
+from support.states import read_states
 from tactile_push.bags import BagError
-from tactile_push.bags.states import read_states
 
 
 def test_states_of_a_topic(tmp_path):
