@@ -22,14 +22,20 @@ def _name() -> str:
 
 
 def _is_imported_by_a_node() -> bool:
-    """Tell whether this process is about to be a node, by `python -m` or by its command."""
+    """Return whether this process is about to be a node, by `python -m` or by its command."""
     program = Path(sys.argv[0])
     return program == Path('-m') or (Path(__file__).parent / f'{program.name}.py').exists()
 
 
 if _is_imported_by_a_node():
-    if ros_is_missing(_name()):
-        sys.exit(2)
     # A node that is interrupted while it still imports has nothing to stop and nothing to say.
     signal.signal(signal.SIGINT, _end_at_once)
     signal.signal(signal.SIGTERM, _end_at_once)
+    if {'-h', '--help'} & set(sys.argv[1:]):  # which needs neither ROS nor the compiler
+        from tactile_push.parameters.help import node_help
+
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # its reader may stop early, such as `head`
+        print(node_help(_name()))
+        sys.exit()
+    if ros_is_missing(_name()):
+        sys.exit(2)

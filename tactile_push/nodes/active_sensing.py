@@ -6,8 +6,6 @@ import sys
 import time
 from collections import Counter
 
-import numpy as np
-from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
@@ -16,7 +14,7 @@ from visualization_msgs.msg import MarkerArray
 from tactile_push.interface import CONTROLLER_STATE, OBJECT_POSE, SENSING_MARKERS, SENSING_STATE
 from tactile_push.nodes.ros.compiling import compiling
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
-from tactile_push.nodes.ros.estimate_markers import estimate_markers
+from tactile_push.nodes.ros.markers import estimate_markers
 from tactile_push.nodes.ros.messages import publish, stamp_of
 from tactile_push.nodes.ros.node_time import NodeTime
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
@@ -40,11 +38,10 @@ class ActiveSensingNode(Node):
     """
 
     NAME = 'active_sensing'
-    PARAMETERS = ActiveSensingParameters
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
-        self._settings = p = declare(self, self.PARAMETERS)
+        self._settings = p = declare(self, ActiveSensingParameters)
         self._counted = Counter(ticks=0, readings=0)
         self._diagnostics = Diagnostics(self, self._health, lambda: self._counted)
         with compiling(self, self._diagnostics):
@@ -78,14 +75,9 @@ class ActiveSensingNode(Node):
         for topic, fields in sensed.outputs():
             publish(self._outputs[topic], fields)
         if self._markers.get_subscription_count():
-            self._markers.publish(self._drawn(sensed, message.header.stamp))
+            estimate = sensed.estimate if sensed.known else None
+            self._markers.publish(estimate_markers(estimate, self._settings, message.header.stamp))
         self._diagnostics.update()
-
-    def _drawn(self, sensed: Sensed, stamp: Time) -> MarkerArray:
-        p = self._settings
-        estimate = sensed.estimate if sensed.known else None
-        outline = None if p.disk_radius > 0.0 else np.reshape(p.vertices, (-1, 2))
-        return estimate_markers(estimate, outline, p.disk_radius, p.finger_radius, stamp)
 
     def _health(self) -> Health:
         sensed = self._sensed

@@ -31,11 +31,10 @@ class BagPlayer(Node):
     """Node: publishes the messages of a bag when they are due, and ends with the bag."""
 
     NAME = BAG_PLAYER
-    PARAMETERS = BagPlayerParameters
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
-        self._settings = p = declare(self, self.PARAMETERS)
+        self._settings = p = declare(self, BagPlayerParameters)
         if not p.bag:
             raise ConfigurationError('parameter bag: expected the folder of a bag')
         try:

@@ -26,11 +26,10 @@ class BagRecorder(Node):
     """
 
     NAME = BAG_RECORDER
-    PARAMETERS = BagRecorderParameters
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
-        p = declare(self, self.PARAMETERS)
+        p = declare(self, BagRecorderParameters)
         self._output = p.output or f'tactile_push_{datetime.now():%Y_%m_%d-%H_%M_%S}'
         self._check_topics(p.topics)
         try:

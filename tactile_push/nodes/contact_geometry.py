@@ -48,11 +48,10 @@ class ContactGeometry(Node):
     """
 
     NAME = 'contact_geometry'
-    PARAMETERS = ContactGeometryParameters
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
-        self._settings = p = declare(self, self.PARAMETERS, self._take_parameters)
+        self._settings = p = declare(self, ContactGeometryParameters, self._take_parameters)
         try:
             self._finder = make_finder(p)
         except ValueError as error:

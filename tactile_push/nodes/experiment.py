@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Conducts an experiment: starts the controller once everything is recorded, ends after N steps."""
+"""Conducts an experiment: starts the controller once all is recorded, and ends after N steps."""
 
 import sys
 from contextlib import ExitStack
@@ -38,11 +38,10 @@ class Experiment(Node):
     """
 
     NAME = 'experiment'
-    PARAMETERS = ExperimentParameters
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
-        self._settings = declare(self, self.PARAMETERS)
+        self._settings = declare(self, ExperimentParameters)
         if not self._settings.bag:
             raise ConfigurationError('parameter bag: expected a folder')
         try:
@@ -91,7 +90,7 @@ class Experiment(Node):
         self._transitions.pop(0)
 
     def _ready(self) -> bool:
-        """Tell whether all is recorded, and contacts and control periods are heard."""
+        """Return whether all is recorded, and somebody else hears contacts and control periods."""
         contact = self.resolve_topic_name(CONTACT)
         state = self.resolve_topic_name(CONTROLLER_STATE)
         return (

@@ -52,11 +52,10 @@ class PushController(ManagedNode):
     """
 
     NAME = 'push_controller'
-    PARAMETERS = PushControllerParameters
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
-        self._settings = declare(self, self.PARAMETERS, self._take_parameters)
+        self._settings = declare(self, PushControllerParameters, self._take_parameters)
         try:
             self._control = make_control(self._settings)
         except ValueError as error:

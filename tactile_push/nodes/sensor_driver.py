@@ -12,6 +12,7 @@ from sensor_msgs.msg import JointState
 
 from tactile_push.devices.device import check_url
 from tactile_push.devices.reader import Condition, SensorReader
+from tactile_push.interface import TACTILE, TOPICS
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.managed import ManagedNode
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
@@ -25,22 +26,17 @@ class SensorDriver(ManagedNode):
     """Managed node: device bytes in, `tactile` out."""
 
     NAME = 'sensor_driver'
-    PARAMETERS = SensorDriverParameters
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
-        self._settings = declare(self, self.PARAMETERS, self._take_parameters)
+        self._settings = declare(self, SensorDriverParameters, self._take_parameters)
         try:
             check_url(self._settings.device)
         except ValueError as error:
             raise ConfigurationError(f'parameter device: {error}') from None
-        nothing = [math.nan] * 3
-        self._message = JointState(
-            name=['azimuth', 'elevation', 'normal_force'],
-            position=nothing,
-            velocity=nothing,
-            effort=nothing,
-        )
+        none = [math.nan] * 3
+        names = list(TOPICS[TACTILE].field_names)
+        self._message = JointState(name=names, position=none, velocity=none, effort=none)
         self._readings = 0
         self._unstamped = 0
         self._reader = SensorReader(
@@ -56,7 +52,7 @@ class SensorDriver(ManagedNode):
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Create the publisher."""
-        self._publisher = self.create_lifecycle_publisher(JointState, 'tactile', PUBLISHED)
+        self._publisher = self.create_lifecycle_publisher(JointState, TACTILE, PUBLISHED)
         return TransitionCallbackReturn.SUCCESS
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -89,11 +85,11 @@ class SensorDriver(ManagedNode):
         self._settings = settings
 
     def _publish(self, readings: list[Reading], stamp: int) -> None:
-        """Publish what one read gave; stamps grow by 1 ns up to the time of the read."""
+        """Publish the readings of one read; stamps grow by 1 ns up to the time of the read."""
         first = stamp - len(readings) + 1
         if first <= 0:
             self._unstamped += len(readings)
-            return  # simulated time has not begun, so there is no stamp to give
+            return  # simulated time has not begun, so there is no stamp
         message = self._message
         for nanoseconds, reading in enumerate(readings, first):
             message.header.stamp = Time(nanoseconds=nanoseconds).to_msg()
@@ -155,9 +151,9 @@ def main() -> int:
 
 
 def _report(thread: threading.ExceptHookArgs) -> None:
-    """Report what ends a thread, but not a thread of pyserial, whose port then says that it ended.
+    """Report what ends a thread, unless it is pyserial's, whose port then says that it ended.
 
-    The one of rfc2217:// does not outlive bytes that are no proper Telnet.
+    Bytes that are no proper Telnet end the thread of rfc2217://.
     """
     if thread.thread is None or not thread.thread.name.startswith('pySerial'):
         threading.__excepthook__(thread)

@@ -7,25 +7,38 @@ import sys
 import time
 from collections import Counter
 
+from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from rclpy.clock import Clock as NodeClock
 from rclpy.clock_type import ClockType
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
-from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
 from tactile_push.devices import Sentence, encode
+from tactile_push.interface import (
+    CLOCK,
+    COMMAND,
+    CONTACT,
+    FINGER_DISK,
+    JOINT_STATES,
+    MARKERS,
+    TOPICS,
+    TRUE_POSE,
+    TRUE_STATE,
+)
 from tactile_push.nodes.ros.compiling import compiling
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.markers import rig_markers
+from tactile_push.nodes.ros.messages import publish
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED
 from tactile_push.parameters.rig import faults, rig_config
 from tactile_push.parameters.sim_plant import SimPlantParameters, faults_on
+from tactile_push.pipeline.messages import joint_state_fields
 from tactile_push.pipeline.orientation import quaternion_of_yaw
 from tactile_push.simulation import Readout, Rig, serve
 from tactile_push.simulation.pace import Pace
@@ -42,11 +55,10 @@ class SimPlant(Node):
     """Node: belt, object, finger and sensor."""
 
     NAME = 'sim_plant'
-    PARAMETERS = SimPlantParameters
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
-        self._settings = p = declare(self, self.PARAMETERS, self._take_parameters, faults)
+        self._settings = p = declare(self, SimPlantParameters, self._take_parameters, faults)
         if p.real_time_factor != 1.0 and not p.publish_clock:
             raise ConfigurationError(
                 'parameter real_time_factor: expected 1.0 unless publish_clock is true, '
@@ -79,7 +91,15 @@ class SimPlant(Node):
         self._v_x = 0.0
         self._last_command: float | None = None
         self._commanders = 0
-        self._create_topics()
+        self._joint_states = self.create_publisher(JointState, JOINT_STATES, PUBLISHED)
+        self._object_pose = self.create_publisher(PoseStamped, TRUE_POSE, PUBLISHED)
+        self._state = self.create_publisher(JointState, TRUE_STATE, PUBLISHED)
+        self._markers = self.create_publisher(MarkerArray, MARKERS, 10)
+        self._clock_publisher = None
+        if p.publish_clock:
+            self._clock_publisher = self.create_publisher(Clock, CLOCK, 10)
+            self.create_subscription(PoseStamped, CONTACT, self._on_contact, FRESHEST)
+        self.create_subscription(TwistStamped, COMMAND, self._on_command, 10)
         steady_clock = NodeClock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(self._period / p.real_time_factor, self._on_timer, clock=steady_clock)
         self.create_timer(LOOK_PERIOD, self._count_commanders, clock=steady_clock)
@@ -94,21 +114,8 @@ class SimPlant(Node):
         self._rig.faults = faults(settings)
         self._readout.sensor = self._rig.faults.sensor
 
-    def _create_topics(self) -> None:
-        self._joint_states = self.create_publisher(JointState, 'joint_states', PUBLISHED)
-        self._object_pose = self.create_publisher(
-            PoseStamped, 'ground_truth/object_pose', PUBLISHED
-        )
-        self._state = self.create_publisher(JointState, 'ground_truth/state', PUBLISHED)
-        self._markers = self.create_publisher(MarkerArray, 'markers', 10)
-        self._clock_publisher = None
-        if self._settings.publish_clock:
-            self._clock_publisher = self.create_publisher(Clock, '/clock', 10)
-            self.create_subscription(PoseStamped, 'contact', self._on_contact, FRESHEST)
-        self.create_subscription(TwistStamped, 'finger/cmd_vel', self._on_command, 10)
-
     def _count_commanders(self) -> None:
-        self._commanders = self.count_publishers('finger/cmd_vel')
+        self._commanders = self.count_publishers(COMMAND)
 
     def _on_command(self, message: TwistStamped) -> None:
         self._counts['commands'] += 1
@@ -152,17 +159,17 @@ class SimPlant(Node):
                 self._send(self._awaited)
 
     def _now(self) -> float:
-        """Give the time by which a command gets old: not that of a rig that was held up."""
+        """Return the time by which a command ages, which goes on while the rig is held up."""
         return time.monotonic() if self._clock_publisher is None else self._time
 
     def _real_time(self) -> float:
-        """Give the time since it was last asked for, for the rig to move by."""
+        """Return by how much the rig has to move: the time since the last call, within bounds."""
         wall = time.monotonic()
         elapsed, self._last_wall = wall - self._last_wall, wall
         return min(elapsed, LONGEST_STEP)
 
     def _step(self, step: float) -> None:
-        """Move belt, object and finger, and tell of it."""
+        """Move belt, object and finger, and publish where they are."""
         if self._last_command is None:
             self._rig.step(0.0, step, belt_running=False)
         else:
@@ -176,14 +183,15 @@ class SimPlant(Node):
             self._time = self._steps * self._period
         self._publish_clock()
         stamp = self._stamp()
-        self._publish_joint_states(stamp)
+        joints = dict(zip(TOPICS[JOINT_STATES].field_names, self._rig.joints, strict=True))
+        publish(self._joint_states, joint_state_fields((stamp.sec, stamp.nanosec), joints))
         self._publish_truth(stamp)
         every = max(1, round(self._settings.sensor_rate / MARKER_RATE))
         if self._steps % every == 0 and self._markers.get_subscription_count():
             self._markers.publish(rig_markers(self._rig, stamp))
 
     def _read(self) -> None:
-        """Read the sensor and send what comes out."""
+        """Read the sensor and send what it says."""
         self._awaited = None
         for sample in self._readout.read(self._rig.reading(), self._time):
             if sample.reading is None:
@@ -202,24 +210,19 @@ class SimPlant(Node):
 
     def _stamp(self) -> Time:
         if self._clock_publisher is None:
-            return self.get_clock().now()
-        return Time(nanoseconds=round(self._time * 1e9), clock_type=ClockType.ROS_TIME)
+            return self.get_clock().now().to_msg()
+        sec, nanosec = divmod(round(self._time * 1e9), 10**9)
+        return Time(sec=sec, nanosec=nanosec)
 
     def _publish_clock(self) -> None:
         if self._clock_publisher is not None:
-            self._clock_publisher.publish(Clock(clock=self._stamp().to_msg()))
-
-    def _publish_joint_states(self, stamp: Time) -> None:
-        message = JointState(name=['proximal_joint', 'distal_joint'], position=self._rig.joints)
-        message.header.stamp = stamp.to_msg()
-        self._joint_states.publish(message)
+            self._clock_publisher.publish(Clock(clock=self._stamp()))
 
     def _publish_truth(self, stamp: Time) -> None:
         rig = self._rig
         in_disk = rig.object_in_finger_disk
         pose = PoseStamped()
-        pose.header.stamp = stamp.to_msg()
-        pose.header.frame_id = 'finger_disk'
+        pose.header.stamp, pose.header.frame_id = stamp, FINGER_DISK
         pose.pose.position.x, pose.pose.position.y = in_disk.x, in_disk.y
         orientation = pose.pose.orientation
         orientation.z, orientation.w = quaternion_of_yaw(in_disk.angle)
@@ -235,9 +238,7 @@ class SimPlant(Node):
             'belt_speed': rig.v_y,
             'belt_travel': rig.finger_y,
         }
-        state = JointState(name=list(fields), position=list(fields.values()))
-        state.header.stamp = stamp.to_msg()
-        self._state.publish(state)
+        publish(self._state, joint_state_fields((stamp.sec, stamp.nanosec), fields))
 
     def _health(self) -> Health:
         rig, faulty = self._rig, ', '.join(faults_on(self._settings))

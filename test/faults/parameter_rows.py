@@ -19,7 +19,7 @@ from tactile_push.nodes.contact_geometry import ContactGeometry
 from tactile_push.nodes.push_controller import PushController
 from tactile_push.nodes.sensor_driver import SensorDriver
 from tactile_push.nodes.sim_plant import SimPlant
-from tactile_push.parameters import Parameter
+from tactile_push.parameters import PARAMETERS, Parameter
 
 from .bench import Bench, expect
 from .promise import NO_BENCH, fault
@@ -105,7 +105,7 @@ def wrong_at_run_time(bench: Bench) -> None:
     begin = time.monotonic()
     for node in NODES:
         name = finger.name(node.NAME)
-        declared = node.PARAMETERS.declared()
+        declared = PARAMETERS[node.NAME].declared()
         before = _values(bench, name, declared)
         for parameter in declared:
             for value in wrong_values(parameter):

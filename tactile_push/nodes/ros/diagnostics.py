@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a node says of itself on /diagnostics: once a second, and at once on a change of level."""
+"""Reports a node's health on /diagnostics: once a second, and at once when its level changes."""
 
 import time
 from collections import defaultdict
@@ -12,7 +12,7 @@ from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 from rclpy.node import Node
 
-# As REP-107 means them: all is well; something to look at, the work goes on; the work has stopped.
+# By REP-107: all is well; something to look at, the work goes on; the work has stopped.
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 PERIOD = 1.0  # between reports [s]
 LOOKS = 10  # at the level, a report
@@ -20,17 +20,7 @@ LOOKS = 10  # at the level, a report
 
 @dataclass(frozen=True)
 class Health:
-    """A node's health at one moment.
-
-    Parameters
-    ----------
-    level : bytes
-        `OK`, `WARN` or `ERROR`.
-    message : str
-        The state in a few words; the time for which they stay the same is reported.
-    values : mapping of str to object, optional
-        Details.
-    """
+    """A node's health: `OK`, `WARN` or `ERROR`, the state in a few words, and details."""
 
     level: bytes
     message: str
@@ -38,24 +28,10 @@ class Health:
 
 
 class Diagnostics:
-    """Publishes a node's health, and how often the things happen that it counts.
+    """Publishes what `health` returns, with what `counts` returns and the rates of these counts.
 
-    An error that is there at a report is logged, once, and so is its end.
-
-    Parameters
-    ----------
-    node : Node
-        The node.
-    health : callable
-        Gives its present health.
-    counts : callable, optional
-        Gives how often each thing has happened so far, by name. Names may come up later.
-
-    Attributes
-    ----------
-    rates : mapping of str to float
-        How often each thing happened in the second before the last report [1/s]; 0 for a name
-        that has not come up.
+    An error that a report finds is logged once, and so is its end. `rates` has how often each
+    counted thing happened in the second before the last report [1/s]; 0 for unknown names.
     """
 
     def __init__(
@@ -85,13 +61,13 @@ class Diagnostics:
         self._publish(health)
 
     def update(self) -> None:
-        """Publish at once if the level is another than last time."""
+        """Publish at once if the level has changed."""
         health = self._look()
         if health.level != self._level:
             self._publish(health)
 
     def report(self) -> None:
-        """Count anew what happens a second, and publish the present health."""
+        """Compute the rates anew and publish the present health."""
         now, counts = time.monotonic(), dict(self._counts())
         elapsed = now - self._counted_at
         self.rates.clear()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""An executor that wakes up when there is something to do, and for nothing else."""
+"""An executor that wakes up only when there is something to do."""
 
 import os
 import signal
@@ -11,11 +11,11 @@ from rclpy.guard_condition import GuardCondition
 
 
 class Executor(SingleThreadedExecutor):
-    """Runs the callbacks of one thread, and comes back at once when a signal arrives.
+    """Runs callbacks in one thread, and returns at once when a signal arrives.
 
-    After each callback rclpy's executors wake up twice more, for the sake of those with several
-    threads, and find nothing to do. Each time costs more than most callbacks. What a callback
-    has changed is looked at anyway before the next wait.
+    After each callback rclpy's executors wake up twice more, which only those with several threads
+    need. Each time costs more than most callbacks. Before the next wait the executor looks anyway
+    at what a callback has changed.
     """
 
     def __init__(self) -> None:
@@ -30,18 +30,7 @@ class Executor(SingleThreadedExecutor):
         self._waker.start()
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
-        """Stop to look out for signals, and to run callbacks.
-
-        Parameters
-        ----------
-        timeout_sec : float, optional
-            How long to wait for callbacks that run [s].
-
-        Returns
-        -------
-        bool
-            Whether none runs any more.
-        """
+        """Stop to wait for signals and to run callbacks, as rclpy's executors do."""
         signal.set_wakeup_fd(-1)
         os.write(self._signal, b'\0')
         self._waker.join()
@@ -55,7 +44,7 @@ class Executor(SingleThreadedExecutor):
 
 
 class _GuardFromElsewhere:
-    """A guard condition that only other threads than the one that made it can trigger."""
+    """A guard condition that ignores triggers from the thread that made it."""
 
     def __init__(self, guard: GuardCondition) -> None:
         self.handle = guard.handle

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""The end of a process that nothing can hold up."""
+"""Ends a process even if it hangs."""
 
 import ctypes
 import time
@@ -10,7 +10,7 @@ SIGEV_THREAD = 2
 
 
 class _Event(ctypes.Structure):
-    """What a timer does, `struct sigevent`."""
+    """`struct sigevent`: what a timer does."""
 
     _fields_ = (
         ('value', ctypes.c_void_p),
@@ -23,16 +23,9 @@ class _Event(ctypes.Structure):
 
 
 def exit_after(seconds: float, status: int) -> None:
-    """End this process some time from now, unless it has ended by then.
+    """End this process with a status some seconds from now, unless it has ended by then.
 
-    No thread of Python could: whoever does not come back may hold the interpreter's lock.
-
-    Parameters
-    ----------
-    seconds : float
-        When [s].
-    status : int
-        Exit status.
+    No thread of Python could: what hangs may hold the interpreter's lock.
     """
     library = ctypes.CDLL(LIBRARY)
     leave = ctypes.cast(library._exit, ctypes.c_void_p)

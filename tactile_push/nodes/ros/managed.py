@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the managed nodes have in common."""
+"""A lifecycle node that starts itself and survives wrong requests."""
 
 from lifecycle_msgs.srv import ChangeState
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
@@ -11,13 +11,8 @@ from tactile_push.nodes.ros.parameters import ConfigurationError
 class ManagedNode(LifecycleNode):
     """A lifecycle node that can start itself and that no request can end.
 
-    rclpy lets a transition that is not possible in the present state end the process, and the
-    asker without an answer.
-
-    Parameters
-    ----------
-    name : str
-        Name of the node.
+    When somebody asks rclpy for a transition that is impossible in the present state, it ends the
+    process and leaves the asker without an answer.
     """
 
     def __init__(self, name: str) -> None:
@@ -28,13 +23,7 @@ class ManagedNode(LifecycleNode):
                 service.callback = self._on_change_state
 
     def autostart(self) -> None:
-        """Configure and activate without a lifecycle manager.
-
-        Raises
-        ------
-        ConfigurationError
-            If one of the transitions fails; the node has logged why.
-        """
+        """Configure and activate without a manager; ConfigurationError if that fails."""
         for transition in (self.trigger_configure, self.trigger_activate):
             if transition() != TransitionCallbackReturn.SUCCESS:
                 raise ConfigurationError('could not start, see above')

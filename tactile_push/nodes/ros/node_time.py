@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""A node's time as a number."""
+"""A node's time in seconds."""
 
 import time
 
@@ -14,27 +14,21 @@ TRIES = 10
 
 
 class NodeTime:
-    """Gives times in seconds since an epoch close by, see `tactile_push.pipeline.stamps`.
-
-    Parameters
-    ----------
-    node : Node
-        The node, whose clock it is.
-    """
+    """Times of a node's clock since an epoch close by, see `tactile_push.pipeline.stamps` [s]."""
 
     def __init__(self, node: Node) -> None:
         self._clock = node.get_clock()
         self._epoch = 0
 
     def now(self) -> float:
-        """Give the present time [s]."""
+        """Return the present time [s]."""
         return self.of(self._clock.now().to_msg())
 
     def now_and_steady(self) -> tuple[Time, float]:
-        """Give the present time, and the same on a clock that cannot be set [s].
+        """Return the present time, and the same on a clock that cannot be set [s].
 
-        If this process had to wait between the two they are read again: the wait would look like
-        a clock that was set.
+        Both are read again if this process had to wait between them: the wait would look like a
+        clock that was set.
         """
         for _ in range(TRIES):
             before = time.monotonic()

@@ -52,24 +52,10 @@ def declare(
     changed: Callable[[P], None] | None = None,
     fits: Callable[[P], object] | None = None,
 ) -> P:
-    """Declare a node's parameters and return their values.
+    """Declare a node's parameters and return their values at the start.
 
-    Parameters
-    ----------
-    node : Node
-        The node.
-    kind : type of NodeParameters
-        Its parameters.
-    changed : callable, optional
-        Called with the present values after some changed at run time.
-    fits : callable, optional
-        Called with the values that somebody asks for at run time; raises ValueError if they do
-        not fit together.
-
-    Returns
-    -------
-    NodeParameters
-        The values at the start.
+    After a change at run time `changed` is called with the new values. Before it, `fits` is called
+    with them and raises ValueError if they do not fit together.
 
     Raises
     ------

@@ -24,26 +24,12 @@ FAREWELL = 2.0  # for the middleware to leave, once all else has ended [s]
 
 
 def run(node_class: type[Node]) -> int:
-    """Run a node until SIGINT, SIGTERM, SIGHUP or the end of its context.
+    """Run a node until SIGINT, SIGTERM, SIGHUP or the end of its context; return the exit status.
 
-    The signals are taken here rather than by rclpy, whose handler ends the context before a last
-    command could be sent. The process ends with it: should the middleware not leave in time, it
-    does so without.
-
-    Parameters
-    ----------
-    node_class : class
-        The node's class, with its `NAME` and its `PARAMETERS`.
-
-    Returns
-    -------
-    int
-        Exit status: 0 done, 1 a file or device failed the node, 2 bad input.
+    The status is 0 when it is done, 1 when a file or device failed, 2 after bad input. rclpy does
+    not handle the signals, because its handler ends the context before the node could send a last
+    command. If the middleware hangs at the end, the process ends without it.
     """
-    if {'-h', '--help'} & set(sys.argv[1:]):
-        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # its reader may stop early, such as `head`
-        print(_help(node_class))
-        return 0
     stopping = False
 
     def stop(signum: int, frame: FrameType | None) -> None:
@@ -53,7 +39,7 @@ def run(node_class: type[Node]) -> int:
     for signum in SIGNALS:
         if signum != signal.SIGHUP or signal.getsignal(signum) != signal.SIG_IGN:  # as nohup asks
             signal.signal(signum, stop)
-    set_logger_level('rcl', LoggingSeverity.FATAL)  # it logs what it then also throws
+    set_logger_level('rcl', LoggingSeverity.FATAL)  # it logs what it also throws
     try:
         foreign = remove_ros_args(sys.argv)[1:]
         rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
@@ -101,7 +87,7 @@ def run(node_class: type[Node]) -> int:
 
 
 def _brief(error: Exception) -> str:
-    """Give rcl's words on one line, without the places in its source."""
+    """Return rcl's words on one line, without the places in its source."""
     words = ' '.join(re.sub(r',\s+at \S+:\d+', '', str(error)).split())
     return words.removeprefix('Failed to parse ROS arguments: ')
 
@@ -109,15 +95,3 @@ def _brief(error: Exception) -> str:
 def _refuse(node_class: type[Node], reason: str) -> int:
     print(f'{node_class.NAME}: {reason}', file=sys.stderr)
     return 2
-
-
-def _help(node_class: type[Node]) -> str:
-    lines = [
-        f'usage: {node_class.NAME} [--ros-args -p NAME:=VALUE … --params-file FILE …]',
-        '',
-        'parameters:',
-    ]
-    for parameter in node_class.PARAMETERS.declared():
-        lines.append(f'  {parameter.name} := {parameter.default}')
-        lines.append(f'      {parameter.words}; {parameter.expected()}')
-    return '\n'.join(lines)

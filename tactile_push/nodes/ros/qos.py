@@ -4,8 +4,8 @@
 
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
-# Reliable, and so deep that whoever listens reliably, as a recorder does, may be kept from running
-# for a while and yet misses nothing.
+# Reliable, and so deep that a reliable subscriber, such as a recorder, misses nothing even if it is
+# kept from running for a while.
 PUBLISHED = QoSProfile(depth=1000)
-# The newest is worth more than all. Deep enough that no bad message hides behind a good one.
+# The newest message counts. Deep enough that a bad message does not push out a good one.
 SENSOR_DATA = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)

@@ -8,14 +8,16 @@ import pytest
 
 pytest.importorskip('visualization_msgs')
 
-from rclpy.time import Time
+from builtin_interfaces.msg import Time
 from visualization_msgs.msg import Marker
 
 from tactile_push.mechanics import Outline, Slider
-from tactile_push.nodes.ros.markers import rig_markers
+from tactile_push.nodes.ros.markers import estimate_markers, rig_markers
+from tactile_push.parameters import ActiveSensingParameters
+from tactile_push.parameters.estimator import make_sensing
 from tactile_push.simulation import Rig, RigConfig, paper_block, paper_disk
 
-STAMP = Time(seconds=12, nanoseconds=345)
+STAMP = Time(sec=12, nanosec=345)
 THETA = math.radians(20.0)
 R, L, D = 0.0135, 0.02375, -0.006
 NORMAL = (-math.sin(THETA), math.cos(THETA))
@@ -249,3 +251,54 @@ def test_object_moves_back_from_a_finger_that_left_it(lost):
     before = by_namespace(Rig(paper_block()))['object'].pose.position
     after = by_namespace(lost)['object'].pose.position
     assert (after.x - before.x, after.y - before.y) == pytest.approx((-0.001, 0.0), abs=1e-12)
+
+
+def estimated(**known):
+    """Return what is drawn after a contact at THETA, by namespace, and the estimate."""
+    p = ActiveSensingParameters(**known)
+    estimate = make_sensing(p).tick(0.0, THETA, 0.0, 0.0)
+    markers = estimate_markers(estimate, p, STAMP).markers
+    return {marker.ns: marker for marker in markers}, estimate
+
+
+def test_estimated_outline_lies_at_the_pose_and_closes():
+    markers, estimate = estimated(edge=0)
+    assert list(markers) == ['outline', 'likely', 'possible']
+    outline = markers['outline']
+    assert outline.header.frame_id == 'finger_disk'
+    assert (outline.pose.position.x, outline.pose.position.y) == tuple(estimate.pose[:2])
+    assert 2.0 * math.atan2(
+        outline.pose.orientation.z, outline.pose.orientation.w
+    ) == pytest.approx(estimate.pose[2])
+    assert [(point.x, point.y) for point in outline.points] == [
+        *((x, y) for x, y in ((-0.025, -L), (0.025, -L), (0.025, L), (-0.025, L))),
+        (-0.025, -L),
+    ]
+
+
+def test_centre_of_mass_is_drawn_along_the_intervals_of_d():
+    markers, estimate = estimated(edge=0)
+    for name, ends in (
+        ('likely', (estimate.d.lower, estimate.d.upper)),
+        ('possible', (estimate.d.least, estimate.d.most)),
+    ):
+        for point, d in zip(markers[name].points, ends, strict=True):
+            along = point.x * TANGENT[0] + point.y * TANGENT[1]
+            off = point.x * NORMAL[0] + point.y * NORMAL[1]
+            assert along == pytest.approx(-d, abs=1e-3)
+            assert off == pytest.approx(R + L, abs=1e-3)
+
+
+def test_centre_of_mass_of_a_disk_is_drawn_in_its_middle():
+    markers, estimate = estimated(disk_radius=0.0285)
+    outline, likely = markers['outline'], markers['likely']
+    for point in outline.points:
+        assert math.hypot(point.x, point.y) == pytest.approx(0.0285)
+    for point in likely.points:
+        assert (point.x, point.y) == pytest.approx(tuple(estimate.pose[:2]), abs=1e-3)
+
+
+def test_nothing_known_clears_the_drawing():
+    markers = estimate_markers(None, ActiveSensingParameters(), STAMP).markers
+    assert [marker.ns for marker in markers] == ['outline', 'likely', 'possible']
+    assert all(marker.action == Marker.DELETE for marker in markers)

@@ -134,10 +134,9 @@ import rclpy
 from rclpy.node import Node
 from tactile_push.nodes.ros import process
 from tactile_push.nodes.ros.parameters import ConfigurationError
-from tactile_push.parameters import NodeParameters
 
 class Own(Node):
-    NAME, PARAMETERS = 'own', NodeParameters
+    NAME = 'own'
 
     def __init__(self):
         super().__init__(self.NAME)
