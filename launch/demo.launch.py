@@ -17,9 +17,11 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
+from tactile_push.parameters import PushControllerParameters, SimPlantParameters
 from tactile_push.testing.processes import loopback
 
 SHARE = get_package_share_directory('tactile_push')
+LAW, PLANT = PushControllerParameters(), SimPlantParameters()
 NUMBERS = ('kp', 'kd', 'real_time_factor')
 
 
@@ -29,17 +31,19 @@ def generate_launch_description() -> LaunchDescription:
             'object', default_value='block', choices=['block', 'disk'], description='what is pushed'
         ),
         DeclareLaunchArgument(
-            'kp', default_value='0.05', description='proportional gain [rad/rad]'
+            'kp', default_value=str(LAW.kp), description='proportional gain [rad/rad]'
         ),
-        DeclareLaunchArgument('kd', default_value='5.0', description='derivative gain [rad/rad]'),
+        DeclareLaunchArgument(
+            'kd', default_value=str(LAW.kd), description='derivative gain [rad/rad]'
+        ),
         DeclareLaunchArgument(
             'real_time_factor',
-            default_value='1.0',
+            default_value=str(PLANT.real_time_factor),
             description='simulated seconds a second, at the most',
         ),
         DeclareLaunchArgument(
             'device',
-            default_value='socket://127.0.0.1:54320',
+            default_value=PLANT.device,
             description='where plant and driver meet',
         ),
         DeclareLaunchArgument(
