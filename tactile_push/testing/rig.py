@@ -14,6 +14,7 @@ from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
 
 from tactile_push.control import STATES, STOP_REASONS
+from tactile_push.interface import COMMAND, CONTACT, CONTROLLER_STATE, TACTILE, TRUE_STATE
 from tactile_push.parameters.config_file import config_file
 from tactile_push.testing.observer import Heard, Observer, field
 from tactile_push.testing.processes import NodeProcesses
@@ -52,15 +53,11 @@ class Rig:
         self.namespace = namespace
         self._device = device
         self._config = config_file('block.yaml')
-        self.commands: Heard[TwistStamped] = observer.hear(
-            TwistStamped, self.name('finger/cmd_vel')
-        )
-        self.contacts: Heard[PoseStamped] = observer.hear(PoseStamped, self.name('contact'))
-        self.states: Heard[JointState] = observer.hear(
-            JointState, self.name('push_controller/state')
-        )
-        self.tactile: Heard[JointState] = observer.hear(JointState, self.name('tactile'))
-        self.truth: Heard[JointState] = observer.hear(JointState, self.name('ground_truth/state'))
+        self.commands: Heard[TwistStamped] = observer.hear(TwistStamped, self.name(COMMAND))
+        self.contacts: Heard[PoseStamped] = observer.hear(PoseStamped, self.name(CONTACT))
+        self.states: Heard[JointState] = observer.hear(JointState, self.name(CONTROLLER_STATE))
+        self.tactile: Heard[JointState] = observer.hear(JointState, self.name(TACTILE))
+        self.truth: Heard[JointState] = observer.hear(JointState, self.name(TRUE_STATE))
 
     def name(self, name: str) -> str:
         """Return the full name of a node, topic or service of this rig.
@@ -112,11 +109,11 @@ class Rig:
         simulated = {'use_sim_time': True}
         self.start_node('sensor_driver', simulated)
         self.start_node('contact_geometry', simulated)
-        hearing = {'contact': 2}
+        hearing = {CONTACT: 2}
         if controller:
             self.start_node('push_controller', {'autostart': False, **simulated})
             self._change_controller(Transition.TRANSITION_CONFIGURE)
-            hearing = {'contact': 3, 'finger/cmd_vel': 4, 'push_controller/state': 1}
+            hearing = {CONTACT: 3, COMMAND: 4, CONTROLLER_STATE: 1}
         self.observer.wait_for(
             lambda: self.contacts and self.truth and self._heard_by(hearing),
             'all nodes to hear each other',
