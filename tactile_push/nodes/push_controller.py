@@ -73,7 +73,7 @@ class PushController(ManagedNode):
         self._sent: deque[tuple[int, int, float]] = deque(maxlen=REMEMBERED)
         self._counted: Counter[str] = Counter()
         self._clock_jumped = self.create_guard_condition(self._after_clock_jump)
-        self._tick_is_due = False
+        self._due: Time | None = None  # of a tick that waits for contacts to be heard
         self._contacts_before = 0  # heard until this node last looked whether more have arrived
         self._heard_all = self.create_guard_condition(self._after_hearing)
         self._jump_handle = self.get_clock().create_jump_callback(
@@ -168,7 +168,7 @@ class PushController(ManagedNode):
         The clock tells of its last time only, so it may pass several contacts at once, and the
         executor hears one of them a turn. On a loaded machine the law would fall behind the plant.
         """
-        self._tick_is_due = True
+        self._due = self.get_clock().now().to_msg()
         self._contacts_before = self._counted['contacts']
         self._contacts_at_most = self._contacts_before + SENSOR_DATA.depth
         self._heard_all.trigger()
@@ -176,13 +176,13 @@ class PushController(ManagedNode):
     def _after_hearing(self) -> None:
         """Tick if the executor's last turn brought no contact."""
         contacts = self._counted['contacts']
-        if not self._tick_is_due or self._timer is None:
+        if self._due is None or self._timer is None:
             return
         if self._contacts_before < contacts < self._contacts_at_most:
             self._contacts_before = contacts
             self._heard_all.trigger()
         else:
-            self._on_tick()
+            self._on_tick(self._due)
 
     def _on_contact(self, message: PoseStamped) -> None:
         frame, turn = message.header.frame_id, message.pose.orientation
@@ -206,11 +206,11 @@ class PushController(ManagedNode):
         response.message = before if not response.success else f'was {before}'
         return response
 
-    def _on_tick(self) -> None:
-        self._tick_is_due = False
+    def _on_tick(self, due: Time | None = None) -> None:
+        self._due = None
         clock = self.get_clock()
         if clock.ros_time_is_active:
-            stamp, elapsed = clock.now().to_msg(), math.nan
+            stamp, elapsed = due or clock.now().to_msg(), math.nan
         else:
             stamp, steady = self._time.now_and_steady()
             elapsed, self._steady = steady - self._steady, steady

@@ -4,7 +4,7 @@
 
 import math
 
-LONGEST_LOOK = 0.05  # between two looks more than this is no waiting: nobody looked [s]
+LONGEST_LOOK = 0.01  # of the wall time between two looks no more counts: nobody looked [s]
 
 
 class Pace:
