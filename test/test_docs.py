@@ -23,6 +23,12 @@ SAFETY = (ROOT / 'docs' / 'safety.md').read_text()
 WIRE_FORMAT = (ROOT / 'docs' / 'wire_format.md').read_text()
 
 
+def test_links_of_the_readme_lead_to_files():
+    links = re.findall(r'\]\(([^)#:]+)\)', README)
+    assert len(links) > 10
+    assert [link for link in links if not (ROOT / link).exists()] == []
+
+
 def test_documentation_builds_without_a_warning(tmp_path: Path):
     for package in ('sphinx', 'myst_parser', 'sphinx_rtd_theme'):
         if importlib.util.find_spec(package) is None:
