@@ -33,7 +33,7 @@ from tactile_push.mechanics.motion import (
     twist_under_force,
 )
 from tactile_push.mechanics.outline import Outline
-from tactile_push.mechanics.push import move_finger, push
+from tactile_push.mechanics.push import move_finger, push, push_rates
 from tactile_push.mechanics.slider import Slider
 from tactile_push.mechanics.support import Support
 
@@ -62,6 +62,7 @@ __all__ = [
     'motion_cone',
     'move_finger',
     'push',
+    'push_rates',
     'pushed_twist',
     'slipping_twist',
     'sticking_twist',

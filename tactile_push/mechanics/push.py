@@ -57,7 +57,33 @@ def _turn_and_slip(
 def push_rates(
     turn: float, sigma: float, piece: int, v_x: float, v_y: float, body: Body, finger: Finger
 ) -> tuple[float, float, int]:
-    """Compute the rates of the object's angle and of the contact during a push."""
+    """Compute the rates of the object's angle and of the contact during a push.
+
+    Parameters
+    ----------
+    turn : float
+        How far the object has turned since the start of the push [rad].
+    sigma : float
+        Position of the disk's centre along its path around the object [m].
+    piece : int
+        Piece of the path where it probably lies.
+    v_x, v_y : float
+        Velocity of the finger relative to the support [m/s], in the axes that the object's frame
+        had at the start of the push.
+    body : Body
+        The object.
+    finger : Finger
+        The finger.
+
+    Returns
+    -------
+    omega : float
+        Angular velocity of the object [rad/s].
+    sigma_dot : float
+        Velocity of the disk's centre along its path [m/s], eq. (16).
+    mode : int
+        `FREE`, `STICK`, `SLIP_LEFT` or `SLIP_RIGHT`.
+    """
     t_x, t_y, d, l = contact(sigma, piece, body.path, finger.r)
     v_x, v_y = rotated(v_x, v_y, -turn)
     v_px, v_py = t_x * v_x + t_y * v_y, t_x * v_y - t_y * v_x
