@@ -28,6 +28,7 @@ from tactile_push.interface import (
     TRUE_STATE,
     fingers,
 )
+from tactile_push.pipeline.named import by_name
 from tactile_push.pipeline.orientation import yaw_of_quaternion
 from tactile_push.report.data import ERROR, WARNING
 from tactile_push.report.episodes import Label
@@ -134,8 +135,8 @@ def _status_label(status: Any) -> Label | None:
 
 def positions(content: Any, taken: Set[str]) -> dict[str, float]:
     """Return the positions of a JointState message by those names that are taken."""
-    pairs = zip(content.name, content.position, strict=False)
-    return {name: value for name, value in pairs if name in taken}
+    values = by_name(content.name, content.position)
+    return {name: value for name, value in values.items() if name in taken}
 
 
 def _pose(content: Any) -> dict[str, float]:
