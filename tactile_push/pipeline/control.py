@@ -124,10 +124,19 @@ class Control:
 
 
 def edge_angle(frame: str, x: float, y: float, z: float, w: float) -> float:
-    """Return the angle [rad] of the edge that a message of `contact` tells of.
+    """Return the angle of the edge that a message of `contact` tells of.
 
-    It is NaN if the message is in another frame than `finger_disk` or the quaternion x, y, z, w is
-    no rotation about z. An empty frame is taken for `finger_disk`.
+    Parameters
+    ----------
+    frame : str
+        The message's frame; an empty one is taken for `finger_disk`.
+    x, y, z, w : float
+        The message's quaternion.
+
+    Returns
+    -------
+    float
+        The angle [rad]; NaN in another frame, or if the quaternion is no rotation about z.
     """
     if frame and not frame.endswith(FINGER_DISK):  # a second finger's may have a prefix
         return math.nan
