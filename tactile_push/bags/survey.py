@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is in a bag: its files, its topics and their rates."""
+"""Survey a bag: its files, its topics and their rates."""
 
+import contextlib
 from array import array
 from collections import Counter
 from collections.abc import Callable
@@ -9,86 +10,48 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from mcap.exceptions import McapError
 from mcap.records import Chunk
 from mcap.records import Message as MessageRecord
 from mcap.stream_reader import StreamReader
 
 from tactile_push.bags.headers import HeaderStamps
+from tactile_push.bags.mcap_records import LARGEST_CHUNK
 from tactile_push.bags.reader import BagError, BagReader, Message
 
 _PROGRESS_EVERY = 1000  # messages
-_SAMPLE = 16384  # intervals of a topic that are kept to find their median
+_SAMPLE = 16384  # intervals of a topic that are kept for their median
 
 
 @dataclass(frozen=True)
 class FileInfo:
-    """A file of a bag.
-
-    Parameters
-    ----------
-    path : Path
-        Where it is.
-    size : int
-        Its size [bytes].
-    compression : str
-        How its chunks are compressed, ``'none'`` if they are not; ``''`` if it has none.
-    """
+    """A file of a bag."""
 
     path: Path
-    size: int
-    compression: str
+    size: int  # [bytes]
+    compression: str  # of its chunks; 'none' if they are not compressed, '' if it has none
 
 
 @dataclass(frozen=True)
 class TopicInfo:
-    """A topic of a bag.
-
-    Parameters
-    ----------
-    name, type_name : str
-        Full name and message type.
-    messages : int
-        Number of messages.
-    rate : float or None
-        Messages a second, by the median time between two of them [Hz].
-    largest_gap : float or None
-        Longest time between two messages [s].
-    gap_at : float or None
-        When that gap began [s], from the start of the bag.
-    out_of_order : int or None
-        Messages with a stamp before that of the message before; None if they have no header.
-    """
+    """A topic of a bag; None is unknown."""
 
     name: str
     type_name: str
     messages: int
-    rate: float | None
-    largest_gap: float | None
-    gap_at: float | None
-    out_of_order: int | None
+    rate: float | None  # by the median time between two messages [Hz]
+    largest_gap: float | None  # longest time between two messages [s]
+    gap_at: float | None  # when that gap began, from the start of the bag [s]
+    out_of_order: int | None  # messages stamped before the one that they follow
 
 
 @dataclass(frozen=True)
 class Survey:
-    """The files and topics of a bag.
-
-    Parameters
-    ----------
-    files : list of FileInfo
-        Its files.
-    messages : int
-        Number of messages.
-    topics : list of TopicInfo
-        Its topics, in the order of their names.
-    remarks : list of str
-        What could not be used.
-    """
+    """The files and topics of a bag."""
 
     files: list[FileInfo]
     messages: int
-    topics: list[TopicInfo]
-    remarks: list[str]
+    topics: list[TopicInfo]  # in the order of their names
+    remarks: list[str]  # what could not be used
 
 
 def survey(
@@ -96,26 +59,10 @@ def survey(
     progress: Callable[[int], None] = lambda count: None,
     hear: Callable[[Message, int | None], None] = lambda message, stamp: None,
 ) -> Survey:
-    """Read a bag once and survey its topics.
+    """Read a bag once and survey its topics; BagError if it cannot be read.
 
-    Parameters
-    ----------
-    bag : BagReader
-        The bag.
-    progress : callable, optional
-        Told now and then how many messages have been read.
-    hear : callable, optional
-        Gets each message and the stamp of its header [ns], None if it has none.
-
-    Returns
-    -------
-    Survey
-        The files and topics.
-
-    Raises
-    ------
-    BagError
-        If the bag cannot be read.
+    `progress` gets the number of messages read, now and then. `hear` gets each message and the
+    stamp of its header [ns], None if it has none.
     """
     encoded = Counter(topic.in_words for topic in bag.topics.values() if not topic.decodes)
     remarks = [
@@ -151,7 +98,7 @@ def survey(
 
 
 class _TopicSurvey:
-    """Follows the messages of a topic."""
+    """The times of a topic's messages."""
 
     def __init__(self) -> None:
         self._messages = 0
@@ -164,7 +111,7 @@ class _TopicSurvey:
         self._stride = 1
 
     def add(self, time: int, stamp: int | None) -> None:
-        """Take a message."""
+        """Add a message."""
         if self._last is not None:
             interval = time - self._last
             if interval > self._gap:
@@ -182,7 +129,7 @@ class _TopicSurvey:
         self._messages += 1
 
     def topic_info(self, name: str, type_name: str, start: int) -> TopicInfo:
-        """Return what is known now."""
+        """Return what is known so far."""
         apart = float(np.median(self._intervals)) if self._intervals else 0.0
         several = self._messages > 1
         return TopicInfo(
@@ -197,16 +144,15 @@ class _TopicSurvey:
 
 
 def _compression(file: Path) -> str:
-    """Return how the first chunk of a file is compressed."""
+    """Return how the first chunk of a file is compressed; '' if there is no whole one."""
     if file.suffix == '.zstd':
         return 'zstd, the whole file'
-    with file.open('rb') as stream:
-        try:
-            for record in StreamReader(stream, emit_chunks=True).records:
-                if isinstance(record, Chunk):
-                    return record.compression or 'none'
-                if isinstance(record, MessageRecord):
-                    return 'none'
-        except McapError:
-            pass  # cut off before the end of its first chunk
+    # The file may be cut off or damaged there; mcap checks little, so any error may come.
+    with file.open('rb') as stream, contextlib.suppress(Exception):
+        reader = StreamReader(stream, emit_chunks=True, record_size_limit=LARGEST_CHUNK)
+        for record in reader.records:
+            if isinstance(record, Chunk):
+                return record.compression or 'none'
+            if isinstance(record, MessageRecord):
+                return 'none'
     return ''
