@@ -44,11 +44,11 @@ class ActiveSensingNode(Node):
         self._settings = p = declare(self, ActiveSensingParameters)
         self._counted = Counter(ticks=0, readings=0)
         self._diagnostics = Diagnostics(self, self._health, lambda: self._counted)
+        try:
+            sensing, compiled = make_sensing(p), make_sensing(p)
+        except ValueError as error:
+            raise ConfigurationError(f'parameter {error}') from None
         with compiling(self, self._diagnostics):
-            try:
-                sensing, compiled = make_sensing(p), make_sensing(p)
-            except ValueError as error:
-                raise ConfigurationError(f'parameter {error}') from None
             for tick in range(2):  # compiles now what would be compiled at the first reading
                 compiled.tick(0.1 * tick, 0.0, 0.0, 0.0)
         self._sensing = Sensing(sensing, NodeTime(self).seconds)

@@ -64,22 +64,22 @@ class SimPlant(Node):
                 'parameter real_time_factor: expected 1.0 unless publish_clock is true, '
                 f'got {p.real_time_factor}'
             )
-        self._counts: Counter[str] = Counter({'readings sent': 0, 'commands': 0})
-        self._diagnostics = Diagnostics(self, self._health, lambda: self._counts)
-        with compiling(self, self._diagnostics):
-            try:
-                config, beginning = rig_config(p), faults(p)
-            except ValueError as error:
-                raise ConfigurationError(str(error)) from None
-            self._rig = Rig(config, beginning)
-            Rig(config).step(0.0, 1.0)  # compiles the mechanics before time begins
-        self._readout = Readout(beginning.sensor, p.seed)
+        try:
+            config, beginning = rig_config(p), faults(p)
+        except ValueError as error:
+            raise ConfigurationError(str(error)) from None
         try:
             self._device = serve(p.device)
         except ValueError as error:
             raise ConfigurationError(f'parameter device: {error}') from None
         except OSError as error:
             raise ConfigurationError(f'parameter device: {error.strerror}') from None
+        self._counts: Counter[str] = Counter({'readings sent': 0, 'commands': 0})
+        self._diagnostics = Diagnostics(self, self._health, lambda: self._counts)
+        with compiling(self, self._diagnostics):  # which a refusal above need not wait for
+            self._rig = Rig(config, beginning)
+            Rig(config).step(0.0, 1.0)  # compiles the mechanics before time begins
+        self._readout = Readout(beginning.sensor, p.seed)
         self._period = 1.0 / p.sensor_rate
         self._pace = Pace(p.real_time_factor, 1.0 / p.control_rate, p.command_timeout)
         self._steps = 0
