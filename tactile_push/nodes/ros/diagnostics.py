@@ -12,6 +12,8 @@ from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 from rclpy.node import Node
 
+from tactile_push.interface import DIAGNOSTICS
+
 # By REP-107: all is well; something to look at, the work goes on; the work has stopped.
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 PERIOD = 1.0  # between reports [s]
@@ -51,7 +53,7 @@ class Diagnostics:
         self._error_logged = False
         self._message = ''
         self._since = self._counted_at
-        self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
+        self._publisher = node.create_publisher(DiagnosticArray, DIAGNOSTICS, 10)
         steady_clock = Clock(clock_type=ClockType.STEADY_TIME)
         node.create_timer(PERIOD / LOOKS, self._on_timer, clock=steady_clock)
 
