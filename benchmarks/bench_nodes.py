@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped, TwistStamped
+from nodes_report import Report, delays, gaps, spread
 from probe import Chain, Heard, chains, feed
 from rclpy.serialization import deserialize_message
-from report import Report, delays, gaps, spread
 from sensor_msgs.msg import JointState
 
 LATENCY_RATE, LATENCY_READINGS = 100.0, 5000

@@ -35,7 +35,8 @@ from tactile_push.testing.processes import NodeProcesses
 STEPS = 450
 REAL_TIME_FACTOR = 20.0
 SENSOR_RATE = 20.0  # two readings a control period [Hz]
-STALL_TIMEOUT = 30.0  # without a step for so long the demonstration has failed [s]
+START_TIMEOUT = 180.0  # longest time to the first step: at their first start the nodes compile [s]
+STALL_TIMEOUT = 30.0  # longest time between two steps [s]
 RIGS = {paper.object: paper for paper in PAPER}  # also names of the parameter files
 TITLES = {BLOCK: r'block, $\theta_d$ = −10°', DISK: r'disk, $\theta_d$ = 0°'}
 DISTANCES = {BLOCK: BLOCK_L, DISK: DISK_RADIUS}  # from edge or tangent to the centre of mass [m]
@@ -136,8 +137,11 @@ def _follow(nodes: NodeProcesses, progress: Callable[[int], None]) -> None:
             if process.poll() not in (None, 0):
                 last_words = nodes.log(name).read_text().strip().splitlines()[-1:]
                 raise DemoError(f'{name} ended: {"".join(last_words) or "without a word"}')
-        if time.monotonic() - moved > STALL_TIMEOUT:
-            raise DemoError(f'no progress for {STALL_TIMEOUT:.0f} s after step {steps}')
+        waited = time.monotonic() - moved
+        if not steps and waited > START_TIMEOUT:
+            raise DemoError(f'no step within {START_TIMEOUT:g} s, in which the nodes also compile')
+        if steps and waited > STALL_TIMEOUT:
+            raise DemoError(f'no progress for {STALL_TIMEOUT:g} s after step {steps}')
 
 
 def _evaluate(

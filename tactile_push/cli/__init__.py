@@ -11,7 +11,7 @@ from types import FrameType
 from typing import NoReturn
 
 from tactile_push.cli.arguments import Commands, Parser, Refused
-from tactile_push.ros import ros_is_missing
+from tactile_push.needs_ros import ros_is_missing
 
 # Exit statuses as shells give them to programs that SIGINT and SIGPIPE end.
 INTERRUPTED, READ_ENOUGH = 130, 141

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from types import FrameType
 
-from tactile_push.ros import ros_is_missing
+from tactile_push.needs_ros import ros_is_missing
 
 
 def _end_at_once(signum: int, frame: FrameType | None) -> None:

@@ -20,8 +20,7 @@ from tactile_push.nodes.ros.node_time import NodeTime
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED
-from tactile_push.parameters.active_sensing import ActiveSensingParameters
-from tactile_push.parameters.estimator import make_sensing
+from tactile_push.parameters.active_sensing import ActiveSensingParameters, make_sensing
 from tactile_push.pipeline import Sensed, Sensing
 
 PATIENCE = 1.0  # without a control period for longer the node warns [s]

@@ -36,8 +36,7 @@ from tactile_push.nodes.ros.messages import publish
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED
-from tactile_push.parameters.rig import faults, rig_config
-from tactile_push.parameters.sim_plant import SimPlantParameters, faults_on
+from tactile_push.parameters.sim_plant import SimPlantParameters, faults, faults_on, rig_config
 from tactile_push.pipeline.messages import joint_state_fields
 from tactile_push.pipeline.orientation import quaternion_of_yaw
 from tactile_push.simulation import Readout, Rig, serve

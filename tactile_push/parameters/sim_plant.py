@@ -1,13 +1,19 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of `sim_plant`; `tactile_push.parameters.rig` makes the rig from them."""
+"""The parameters of `sim_plant`, and the simulated rig and faults that they describe."""
 
 import math
+import re
+import typing
 from dataclasses import dataclass
 
 from tactile_push import paper
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
+from tactile_push.tactile import PlanarFinger
+
+if typing.TYPE_CHECKING:
+    from tactile_push.simulation import Faults, RigConfig
 
 
 @dataclass(frozen=True)
@@ -101,3 +107,46 @@ def faults_on(p: SimPlantParameters) -> list[str]:
         for fault in FAULTS
         if fault.name not in NO_FAULTS_OF_THEIR_OWN and getattr(p, fault.name) != fault.default
     ]
+
+
+def rig_config(p: SimPlantParameters) -> 'RigConfig':
+    """Return the rig that the parameters describe; ValueError if there is no such rig."""
+    from tactile_push.mechanics import Outline, Slider, Support  # which load the compiler
+    from tactile_push.simulation import RigConfig
+
+    if p.object == paper.BLOCK:
+        outline, d = Outline.rectangle(p.edge_length, 2.0 * p.edge_to_cm), p.d_initial
+    else:
+        outline, d = Outline.circle(p.disk_radius), 0.0
+    slider = Slider(outline, p.c or Support.uniform(outline).c)
+    finger = PlanarFinger(p.proximal_length, p.distal_length, p.mount_angle)
+    try:
+        return RigConfig(slider, p.mu_c, p.theta_initial, d, p.belt_speed, p.finger_radius, finger)
+    except ValueError as error:
+        raise ValueError(re.sub('^d:', 'parameter d_initial:', str(error))) from None
+
+
+def faults(p: SimPlantParameters) -> 'Faults':
+    """Return the faults that the parameters describe; ValueError if they do not fit together."""
+    from tactile_push.simulation import Belt, Faults, Sensor, Servo, UnevenFriction, Workspace
+
+    try:
+        workspace = Workspace(p.workspace_min, p.workspace_max)
+    except ValueError as error:
+        raise ValueError(re.sub('^workspace:', 'parameter workspace_min:', str(error))) from None
+    return Faults(
+        Servo(p.servo_time_constant, p.servo_delay, p.servo_velocity_quantum),
+        workspace,
+        Belt(p.belt_ripple, p.belt_ripple_frequency, p.belt_stopped),
+        UnevenFriction(p.mu_c_ripple, p.mu_c_ripple_length),
+        Sensor(
+            p.sensor_noise,
+            p.sensor_bias,
+            p.sensor_quantum,
+            p.sensor_latency,
+            p.sensor_dropout,
+            p.sensor_outlier,
+            p.sensor_stuck,
+            p.sensor_detectable_range,
+        ),
+    )

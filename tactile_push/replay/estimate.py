@@ -22,7 +22,7 @@ from tactile_push.interface import (
 )
 from tactile_push.paper import object_with
 from tactile_push.parameters import ActiveSensingParameters
-from tactile_push.parameters.estimator import make_sensing
+from tactile_push.parameters.active_sensing import make_sensing
 from tactile_push.pipeline import Sensing, by_name
 from tactile_push.pipeline.stamps import epoch_of, seconds_since
 from tactile_push.replay.messages import fingers_of, stamp_of

@@ -25,7 +25,7 @@ from tactile_push.parameters import (
     ContactGeometryParameters,
     PushControllerParameters,
 )
-from tactile_push.parameters.estimator import make_sensing
+from tactile_push.parameters.active_sensing import make_sensing
 from tactile_push.pipeline import Felt, Output, Sensing, Stamp, edge_angle
 from tactile_push.pipeline.orientation import quaternion_of_yaw
 from tactile_push.pipeline.stamps import epoch_of, seconds_since

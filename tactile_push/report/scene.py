@@ -11,7 +11,7 @@ import numpy.typing as npt
 from tactile_push.interface import CONTACT, TRUE_POSE, TRUE_STATE
 from tactile_push.paper import FINGER_RADIUS
 from tactile_push.parameters import SimPlantParameters
-from tactile_push.parameters.rig import rig_config
+from tactile_push.parameters.sim_plant import rig_config
 from tactile_push.report.columns import Table
 from tactile_push.report.data import Scene
 from tactile_push.simulation import RigConfig, paper_block, paper_disk

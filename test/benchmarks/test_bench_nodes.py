@@ -10,13 +10,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-SCRIPT = Path(__file__).parents[2] / 'benchmarks' / 'report.py'
+SCRIPT = Path(__file__).parents[2] / 'benchmarks' / 'nodes_report.py'
 
 
 @pytest.fixture(scope='module')
 def report():
     """Load the module, which lies in no package."""
-    spec = importlib.util.spec_from_file_location('report', SCRIPT)
+    spec = importlib.util.spec_from_file_location('nodes_report', SCRIPT)
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module
     spec.loader.exec_module(module)

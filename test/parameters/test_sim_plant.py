@@ -4,9 +4,37 @@ import math
 
 import pytest
 
-from tactile_push.parameters.sim_plant import FAULTS, SimPlantParameters, faults_on
+from tactile_push.parameters.sim_plant import (
+    FAULTS,
+    SimPlantParameters,
+    faults,
+    faults_on,
+    rig_config,
+)
+from tactile_push.simulation import Faults, Workspace
 
 HARMLESS = {'belt_ripple_frequency', 'mu_c_ripple_length'}  # without the ripple
+# A value of each fault, and where it has to arrive.
+VALUES = {
+    'servo_time_constant': (0.1, lambda f: f.servo.time_constant),
+    'servo_delay': (0.2, lambda f: f.servo.delay),
+    'servo_velocity_quantum': (0.001, lambda f: f.servo.velocity_quantum),
+    'workspace_min': (-0.08, lambda f: f.workspace.lower),
+    'workspace_max': (0.02, lambda f: f.workspace.upper),
+    'belt_ripple': (0.3, lambda f: f.belt.ripple),
+    'belt_ripple_frequency': (2.0, lambda f: f.belt.frequency),
+    'belt_stopped': (True, lambda f: f.belt.stopped),
+    'mu_c_ripple': (0.4, lambda f: f.friction.ripple),
+    'mu_c_ripple_length': (0.01, lambda f: f.friction.length),
+    'sensor_noise': (0.01, lambda f: f.sensor.noise),
+    'sensor_bias': (-0.02, lambda f: f.sensor.bias),
+    'sensor_quantum': (0.005, lambda f: f.sensor.quantum),
+    'sensor_latency': (0.05, lambda f: f.sensor.latency),
+    'sensor_dropout': (0.015, lambda f: f.sensor.dropout),
+    'sensor_outlier': (0.025, lambda f: f.sensor.outlier),
+    'sensor_stuck': (True, lambda f: f.sensor.stuck),
+    'sensor_detectable_range': (0.7, lambda f: f.sensor.detectable_range),
+}
 
 
 def test_every_fault_is_off_by_default_and_changeable_while_the_plant_runs():
@@ -20,3 +48,26 @@ def test_a_fault_that_is_on_is_named(fault):
     assert not math.isclose(value, fault.default)
     on = faults_on(SimPlantParameters(**{fault.name: value}))
     assert on == ([] if fault.name in HARMLESS else [fault.name])
+
+
+def test_every_fault_is_off_by_default():
+    assert faults(SimPlantParameters()) == Faults()
+    assert [fault.name for fault in FAULTS] == list(VALUES)
+
+
+@pytest.mark.parametrize('name', VALUES)
+def test_each_fault_arrives_where_it_belongs(name):
+    value, place = VALUES[name]
+    assert place(faults(SimPlantParameters(**{name: value}))) == value
+
+
+def test_a_workspace_without_a_place_is_refused():
+    bounded = SimPlantParameters(workspace_min=-0.1, workspace_max=0.1)
+    assert faults(bounded).workspace == Workspace(-0.1, 0.1)
+    with pytest.raises(ValueError, match='parameter workspace_min: expected'):
+        faults(SimPlantParameters(workspace_min=0.1, workspace_max=-0.1))
+
+
+def test_a_start_beyond_the_edge_is_refused_by_the_name_of_its_parameter():
+    with pytest.raises(ValueError, match='parameter d_initial: expected a contact .* got 0.3'):
+        rig_config(SimPlantParameters(d_initial=0.3))

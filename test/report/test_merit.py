@@ -191,7 +191,7 @@ def test_figures_of_long_runs(settled):
     assert figures.steps == count
 
 
-# reference.md: figures 9 and 10 of the paper.
+# docs/numbers.md: figures 9 and 10 of the paper.
 def test_paper_is_beside_what_it_tells_of():
     block = paper_figures(math.radians(-10.0), 'block')
     assert (block.figure, block.settle_step) == ('9', 173)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Numbers that the package has to reproduce. docs/reference.md says where they come from."""
+"""Numbers that the package has to reproduce. docs/numbers.md says where they come from."""
 
 import math
 

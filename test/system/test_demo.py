@@ -26,7 +26,7 @@ def test_demo_settles_both_rigs_and_leaves_a_picture_and_bags(tmp_path: Path):
     assert run.returncode == 0, run.stderr
     rigs = json.loads(run.stdout)['rigs']
     assert set(rigs) == {'block', 'disk'}
-    # Near the pure rollout, which docs/reference.md computes.
+    # Near the pure rollout, which docs/numbers.md computes.
     theta, phi, d = FIGURE_8_END
     assert abs(rigs['block']['settle_step'] - FIGURE_8_SETTLE_STEP) <= 5
     assert math.degrees(rigs['block']['theta_final']) == pytest.approx(theta, abs=0.5)

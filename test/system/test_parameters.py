@@ -83,7 +83,11 @@ def test_gains_change_at_run_time(nodes: NodeProcesses, observer: Observer):
         ('push_controller', {'use_sim_time': 'maybe'}, "'use_sim_time' to 'maybe'"),
         ('push_controller', {'kq': 1.0}, 'parameter kq: unknown, did you mean kp?'),
         ('sim_plant', {'object': 'cone'}, 'parameter object: expected one of block, disk'),
-        ('sim_plant', {'d_initial': 0.03}, 'd: expected a contact on the outline'),
+        (
+            'sim_plant',
+            {'d_initial': 0.03},
+            'parameter d_initial: expected a contact',
+        ),
         ('sim_plant', {'device': 'serial:/x'}, 'device: expected socket://host:port'),
         ('sim_plant', {'real_time_factor': 2.0}, 'real_time_factor: expected 1.0 unless'),
         ('contact_geometry', {'max_out_of_plane': 2.0}, 'max_out_of_plane: expected a number'),

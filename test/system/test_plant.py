@@ -100,7 +100,7 @@ def test_fault_beyond_its_range_or_of_another_type_is_refused_with_a_reason(plan
     assert plant.set(workspace_max=-0.05)[0].successful
     (result,) = plant.set(workspace_min=0.0)
     assert not result.successful
-    assert 'workspace: expected a lower bound below' in result.reason
+    assert 'parameter workspace_min: expected a lower bound below' in result.reason
 
 
 def test_command_that_is_no_number_stops_the_finger_at_once_and_is_counted(plant: Plant):

@@ -14,7 +14,7 @@ from visualization_msgs.msg import Marker
 from tactile_push.mechanics import Outline, Slider
 from tactile_push.nodes.ros.markers import estimate_markers, rig_markers
 from tactile_push.parameters import ActiveSensingParameters
-from tactile_push.parameters.estimator import make_sensing
+from tactile_push.parameters.active_sensing import make_sensing
 from tactile_push.simulation import Rig, RigConfig, paper_block, paper_disk
 
 STAMP = Time(sec=12, nanosec=345)

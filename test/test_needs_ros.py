@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from tactile_push.ros import ros_is_missing
+from tactile_push.needs_ros import ros_is_missing
 
 
 def test_ros_that_is_installed_is_not_spoken_of(capsys):
