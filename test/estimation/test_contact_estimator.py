@@ -185,19 +185,3 @@ def test_a_density_over_the_prior_is_followed():
 def test_motions_that_are_none_are_refused(arguments):
     with pytest.raises(ValueError, match='expected'):
         ContactEstimator(BLOCK, NOISE).push(*arguments)
-
-
-@pytest.mark.parametrize(
-    'changes',
-    [
-        {'d': (0.02, 0.01)},
-        {'l': 0.0},
-        {'l_sigma': 0.01},
-        {'c': (0.0, 0.01)},
-        {'mu_c': (0.5, 0.1)},
-        {'mu_c': (-0.1, 1.0)},
-    ],
-)
-def test_priors_that_are_none_are_refused(changes):
-    with pytest.raises(ValueError, match='expected'):
-        Prior(**{'d': (-0.025, 0.025), 'l': 0.02375, **changes})

@@ -6,6 +6,8 @@ import math
 import numpy as np
 import pytest
 
+from support import pushed_block
+from support.pushed_block import HALF, RADIUS
 from tactile_push.estimation.hypotheses import (
     LASTING,
     LOG_C,
@@ -18,15 +20,10 @@ from tactile_push.estimation.hypotheses import (
     correct,
     predict,
 )
-from tactile_push.estimation.mixture import quantile
 from tactile_push.estimation.prior import ROUND
 from tactile_push.estimation.resistance import Pressure, Push
-from tactile_push.mechanics import Outline, friction_cone, push, tangent_angle
+from tactile_push.mechanics import Slider
 
-RADIUS = 0.0135
-BLOCK = Outline.rectangle(0.05, 0.0475)
-PATH = BLOCK.path(RADIUS)
-HALF = 0.02375
 LOG = math.log(0.0187)
 MOMENTS = np.array(ROUND)
 
@@ -41,14 +38,8 @@ def pushed(means, covariances, motions, moments, v_x, v_y, duration, scatter, sk
     predict(means, covariances, motions, moments, once, errors, curved)
 
 
-def exactly(theta, d, c, mu_c, v_x, v_y, duration):
-    """Push the block by the mechanics, which integrate every push to convergence."""
-    sigma = BLOCK.sigma(RADIUS, d=d)
-    turn = tangent_angle(sigma, PATH)
-    angle, after, _, _ = push(
-        *(theta - turn, sigma, v_x, v_y, duration, PATH, c, None, *friction_cone(mu_c), RADIUS)
-    )
-    return angle + turn, d + after - sigma
+def exactly(theta, d, c, mu_c, v_x):
+    return pushed_block.pushed(Slider(pushed_block.OUTLINE, c), theta, d, mu_c, v_x)
 
 
 @pytest.mark.parametrize('mu_c', [0.0, 0.2, 1.0, math.inf])
@@ -62,7 +53,7 @@ def test_a_push_is_that_of_the_mechanics(mu_c):
             *(v_x, 0.005, 0.1, False),
         )
 
-        expected = exactly(theta, d, c, mu_c, v_x, 0.005, 0.1)
+        expected = exactly(theta, d, c, mu_c, v_x)
         assert found[0] == pytest.approx(expected[0], rel=0, abs=5e-5)
         assert found[1] == pytest.approx(expected[1], rel=0, abs=2e-6)
 
@@ -105,9 +96,7 @@ def test_what_is_known_for_certain_stays_certain():
     pushed(means, covariances, still(), MOMENTS, 0.0, 0.005, 0.1, 0.0, 0.0, 0.0, False)
 
     assert covariances == pytest.approx(0.0, rel=0, abs=1e-20)
-    assert means[0, :2] == pytest.approx(
-        exactly(0.2, -0.006, 0.0187, math.inf, 0.0, 0.005, 0.1), abs=2e-5
-    )
+    assert means[0, :2] == pytest.approx(exactly(0.2, -0.006, 0.0187, math.inf, 0.0), abs=2e-5)
 
 
 def test_scatter_adds_what_it_says():
@@ -227,14 +216,3 @@ def test_an_outlier_moves_nothing():
     assert density == pytest.approx(0.001 / math.pi)
     assert (means == before[0]).all()
     assert (covariances == before[1]).all()
-
-
-def test_quantiles_of_one_gaussian_and_of_two_far_apart():
-    ones, zeros = np.ones(1), np.zeros(1)
-
-    assert quantile(ones, zeros, ones, 0.025) == pytest.approx(-1.959964, abs=1e-3)
-    assert quantile(3.0 * ones, 2.0 * ones, 4.0 * ones, 0.975) == pytest.approx(5.919928, abs=2e-3)
-    # The upper one has a quarter of the weight: the share 0.775 lies a tenth into it.
-    found = quantile(np.array([0.75, 0.25]), np.array([0.0, 100.0]), np.ones(2), 0.775)
-    assert found == pytest.approx(100.0 - 1.281552, abs=2e-2)
-    assert quantile(ones, 7.0 * ones, zeros, 0.025) == pytest.approx(7.0)

@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+
+import math
+
+import numpy as np
+import pytest
+
+from support.pushed_block import HALF, OUTLINE, RADIUS, pushed
+from tactile_push.estimation.cells import (
+    FACES,
+    Bounds,
+    Interval,
+    cut_cells,
+    push_cells,
+    split_cells,
+    squared,
+    times,
+)
+from tactile_push.estimation.resistance import Push
+from tactile_push.mechanics import Slider, Support
+
+
+def box_around(rng, theta, d, c, mu_c):
+    """Give a cell with the truth somewhere inside."""
+    values = (theta, d + RADIUS * theta, c * c, math.atan(mu_c))
+    widths = (0.02, 0.002, 1e-4, 0.3)
+    cell = np.empty((1, FACES))
+    for i, (value, width) in enumerate(zip(values, widths, strict=True)):
+        below, above = rng.uniform(0.0, width, 2)
+        cell[0, 2 * i], cell[0, 2 * i + 1] = value - below, value + above
+    cell[0, 4] = max(cell[0, 4], 1e-6)
+    cell[0, 6], cell[0, 7] = max(cell[0, 6], 0.0), min(cell[0, 7], math.pi / 2.0)
+    return cell
+
+
+@pytest.mark.parametrize('mu_c', [0.0, 0.1, 0.5, math.inf])
+@pytest.mark.parametrize('support', [None, 'corners', 'rim', 'uniform'])
+def test_the_truth_stays_in_its_cell(mu_c, support):
+    rng = np.random.default_rng(3)
+    for _ in range(60):
+        theta, d = rng.uniform(-0.4, 0.4), rng.uniform(-0.02, 0.02)
+        v_x, share, angle = rng.uniform(-0.004, 0.004), 0.0, 0.0
+        if support is None:
+            slider = Slider(OUTLINE, rng.uniform(0.005, 0.036))
+        else:
+            count = () if support == 'corners' else (60,)
+            slider = Slider.on(OUTLINE, getattr(Support, support)(OUTLINE, *count), exact=True)
+            share, angle = 0.6, math.radians(15.0)  # of this c, not of the best one
+        cell = box_around(rng, theta, d, slider.c, mu_c)
+
+        bounds = Bounds(
+            Interval(-0.025, 0.025),
+            Interval(HALF, HALF),
+            Interval(RADIUS, RADIUS),
+            0.0,
+            share,
+            angle,
+        )
+        left = push_cells(cell, Push(v_x, 0.005, 0.1), bounds)
+
+        theta, d = pushed(slider, theta, d, mu_c, v_x)
+        assert left == 1
+        assert cell[0, 0] <= theta <= cell[0, 1]
+        assert cell[0, 2] <= d + RADIUS * theta <= cell[0, 3]
+
+
+def test_a_sticking_contact_stays_in_its_cell_where_the_finger_moves_along_the_edge():
+    rng = np.random.default_rng(4)
+    slider = Slider(OUTLINE, 0.0187)
+    for _ in range(60):
+        theta, d = rng.uniform(1.5, 1.62), rng.uniform(-0.02, 0.02)
+        cell = np.empty((1, FACES))
+        values = (theta, d + RADIUS * theta, slider.c**2, math.pi / 2.0)
+        for i, (value, width) in enumerate(zip(values, (1e-4, 1e-5, 1e-7, 0.0), strict=True)):
+            cell[0, 2 * i], cell[0, 2 * i + 1] = value - width, value + width
+
+        bounds = Bounds(
+            *(Interval(-0.03, 0.03), Interval(HALF, HALF), Interval(RADIUS, RADIUS)),
+            *(0.0, 0.3, math.radians(15.0)),
+        )
+        left = push_cells(cell, Push(0.0, 0.005, 0.1), bounds)
+
+        theta, d = pushed(slider, theta, d, math.inf, 0.0)
+        assert left == 1
+        assert cell[0, 0] <= theta <= cell[0, 1]
+        assert cell[0, 2] <= d + RADIUS * theta <= cell[0, 3]
+
+
+def test_splitting_keeps_the_whole():
+    cells = np.zeros((64, FACES))
+    cells[0] = (0.1, 0.2, -0.03, 0.02, 2.5e-5, 1.3e-3, 0.0, math.pi / 2.0)
+    whole = cells[0].copy()
+    count = 1
+    while count < 64:
+        count = split_cells(cells, count, HALF, RADIUS, 0.0)
+
+    sides = cells[:, 1::2] - cells[:, ::2]
+    assert (sides > 0.0).all()
+    assert sides.prod(axis=1).sum() == pytest.approx((whole[1::2] - whole[::2]).prod())
+    assert cells[:, ::2].min(axis=0) == pytest.approx(whole[::2])
+    assert cells[:, 1::2].max(axis=0) == pytest.approx(whole[1::2])
+
+
+def test_a_reading_cuts_cells_and_removes_those_it_excludes():
+    cells = np.zeros((3, FACES))
+    cells[:, :2] = (-0.3, -0.1), (-0.05, 0.02), (0.01, 0.4)
+    cells[:, 4] = 1.0, 2.0, 3.0  # tells them apart
+
+    left = cut_cells(cells, -0.02, 0.03)
+
+    assert left == 2
+    assert cells[:2, :2].tolist() == [[-0.02, 0.02], [0.01, 0.03]]
+    assert cells[:2, 4].tolist() == [2.0, 3.0]
+
+
+@pytest.mark.parametrize(
+    ('a', 'b', 'product'),
+    [
+        ((1.0, 2.0), (3.0, 5.0), (3.0, 10.0)),
+        ((-2.0, 3.0), (-5.0, 4.0), (-15.0, 12.0)),
+        ((-2.0, -1.0), (-4.0, -3.0), (3.0, 8.0)),
+        ((-2.0, 3.0), (0.0, 0.0), (0.0, 0.0)),
+    ],
+)
+def test_a_product_of_intervals_has_the_products_of_their_ends(a, b, product):
+    assert times(Interval(*a), Interval(*b)) == product
+
+
+@pytest.mark.parametrize(
+    ('interval', 'square'),
+    [((1.0, 2.0), (1.0, 4.0)), ((-3.0, -2.0), (4.0, 9.0)), ((-3.0, 2.0), (0.0, 9.0))],
+)
+def test_a_square_is_never_negative(interval, square):
+    assert squared(Interval(*interval)) == square
