@@ -1,5 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
+"""What the demonstration makes of its results, and of nodes that end early or stand still."""
+
+import math
 import subprocess
 import sys
 from pathlib import Path
@@ -7,8 +10,72 @@ from types import SimpleNamespace
 
 import pytest
 
+from support.demo_results import results
 from tactile_push import demo
 from tactile_push.interface import EXPERIMENT
+
+
+def test_json_has_it():
+    block, disk = (one.as_json() for one in results(None).values())
+    assert (block['known_step'], disk['known_step']) == (None, 0)
+    assert (block['settle_step'], block['ticks_lost'], block['wall_seconds']) == (192, 0, 10.0)
+    # (17) by hand for phi = 1.44 and theta = -10 degrees.
+    expected = -0.02375 / math.tan(1.44 + math.radians(10.0))
+    assert block['d_lower'] == block['d_upper'] == pytest.approx(expected)
+    assert list(block) == [
+        'settle_step',
+        'theta_final',
+        'phi_final',
+        'd_final',
+        'd_lower',
+        'd_upper',
+        'known_step',
+        'theta_range',
+        'phi_range',
+        'ticks_lost',
+        'wall_seconds',
+    ]
+
+
+class Nodes:
+    """Nodes of which the logs and the exit statuses are known; None for one that runs.
+
+    The experiment writes a line of `lines` each time its log is read, and ends after the last.
+    """
+
+    def __init__(self, folder, statuses, lines=()):
+        self.folder = folder
+        self.lines = list(lines)
+        self.running = {name: SimpleNamespace(poll=lambda s=s: s) for name, s in statuses.items()}
+        self.running['experiment'] = SimpleNamespace(poll=self.poll)
+        for name in self.running:
+            (folder / f'{name}.log').write_text('')
+
+    def log(self, name):
+        log = self.folder / f'{name}.log'
+        if name == 'experiment' and self.lines:
+            log.write_text(f'{log.read_text()}{self.lines.pop(0)}\n')
+        return log
+
+    def poll(self):
+        return None if self.lines else 0
+
+
+def test_every_step_is_told_once_until_the_experiment_ends(tmp_path):
+    told = []
+    lines = ['waiting for the controller', '10', '10', '20']
+    demo._follow(Nodes(tmp_path, {'sim_plant': None}, lines), told.append)
+    assert told == [10, 20]
+
+
+@pytest.mark.parametrize(
+    ('log', 'words'), [('first\nlast line\n', 'last line'), ('', 'without a word')]
+)
+def test_node_that_ends_early_fails_the_demonstration_with_its_last_line(tmp_path, log, words):
+    nodes = Nodes(tmp_path, {'sim_plant': None, 'sensor_driver': 1}, ['10'] * 100)
+    nodes.log('sensor_driver').write_text(log)
+    with pytest.raises(demo.DemoError, match=f'^sensor_driver ended: {words}$'):
+        demo._follow(nodes, lambda steps: None)
 
 
 @pytest.fixture

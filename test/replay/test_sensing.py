@@ -152,23 +152,6 @@ def test_rig_is_that_of_the_other_nodes_where_nobody_recorded_it(tmp_path):
     assert results[0] == results[1] != results[2]
 
 
-@pytest.mark.parametrize(
-    ('parameter', 'words'),
-    [
-        ('edge: 4', 'edge: expected -1 to 3, got 4'),
-        ('vertices: [1, 2, 3, 4, 5, 6]', 'vertices: expected a list of numbers'),
-        ('vertices: [0.1, 0.2]', 'vertices: expected x and y of three corners'),
-        ('vertics: [0.1, 0.2]', 'did you mean vertices'),
-    ],
-)
-def test_parameter_that_makes_no_sense_is_bad_input(tmp_path, capsys, parameter, words):
-    config = tmp_path / 'object.yaml'
-    config.write_text(f'active_sensing:\n  ros__parameters:\n    {parameter}\n')
-    assert main(['replay', str(DATA / 'block'), '--config', str(config)]) == 2
-    (line,) = [li for li in capsys.readouterr().err.splitlines() if 'tactile_push replay' in li]
-    assert words in line
-
-
 def test_command_tells_d_at_the_end_and_of_every_control_period(bag, said, tmp_path, capsys):
     live = with_sensing(bag, said, tmp_path / 'live')
     assert main(['replay', str(live)]) == 0

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""A browser for the tests of pages."""
+"""A run that is known in closed form, and a browser for the tests of pages."""
 
 import os
 import shutil
@@ -34,3 +34,11 @@ def browser():
         browser = started.chromium.launch(executable_path=executable, args=ARGUMENTS)
         yield browser
         browser.close()
+
+
+@pytest.fixture(scope='module')
+def run(tmp_path_factory):
+    """Return what a report makes of the bag of `support.pushed_bag`."""
+    from support.pushed_bag import run_of, write_bag  # which needs the messages of ROS
+
+    return run_of(write_bag(tmp_path_factory.mktemp('run') / 'pushed'))

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from tactile_push.paper import OTHER, paper_figures
+from tactile_push.paper import OTHER
 from tactile_push.report.columns import Columns
 from tactile_push.report.merit import FIELDS, KNOWN, known_step, plant_object, push_figures
 
@@ -189,25 +189,6 @@ def test_figures_of_long_runs(settled):
     assert figures.v_x_range == (theta.min(), theta.max())
     assert figures.saturated_share == pytest.approx(np.mean(theta > 0))
     assert figures.steps == count
-
-
-# docs/numbers.md: figures 9 and 10 of the paper.
-def test_paper_is_beside_what_it_tells_of():
-    block = paper_figures(math.radians(-10.0), 'block')
-    assert (block.figure, block.settle_step) == ('9', 173)
-    assert np.degrees(block.theta_range) == pytest.approx([-10.4, -8.9])
-    assert np.degrees(block.phi_range) == pytest.approx([80.2, 85.8])
-    assert block.d_range == (0.0003, 0.0021)
-    assert math.degrees(block.band) == pytest.approx(3.0)
-    disk = paper_figures(0.0, 'disk')
-    assert (disk.figure, disk.settle_step) == ('10', 110)
-    assert math.degrees(disk.band) == pytest.approx(1.0)
-    assert paper_figures(math.radians(-10.0), None) is block
-    assert paper_figures(0.0, None) is disk
-    assert paper_figures(0.0, 'block') is None
-    assert paper_figures(math.radians(-10.0), 'disk') is None
-    assert paper_figures(math.radians(20.0), None) is None
-    assert paper_figures(math.radians(-10.0), OTHER) is None
 
 
 @pytest.mark.parametrize(

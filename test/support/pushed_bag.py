@@ -10,7 +10,8 @@ from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
 
-from tactile_push.bags import BagWriter
+from tactile_push.bags import BagReader, BagWriter
+from tactile_push.report import read_run
 
 START = 1_700_000_000_000_000_000  # 2023-11-14 22:13:20 UTC [ns]
 DURATION = 12.0
@@ -152,3 +153,33 @@ def write_bag(folder, namespace='', truth=True, parameters=PARAMETERS):
                 status = diagnostics(t, 'sensor_driver', level, HOSTILE if warned else 'fine')
                 bag.write('/diagnostics', status, now, now)
     return folder
+
+
+def run_of(folder):
+    """Return what a report makes of a bag."""
+    with BagReader(folder) as bag:
+        return read_run(bag)
+
+
+def written(folder, *messages):
+    """Write a bag of (topic, type, time [s], CDR)."""
+    with BagWriter(folder) as bag:
+        for topic, kind in dict.fromkeys((topic, kind) for topic, kind, _, _ in messages):
+            bag.add_topic(topic, kind)
+        for topic, _, t, data in messages:
+            now = START + round(t * 1e9)
+            bag.write(topic, data, now, now)
+    return folder
+
+
+def sensing_bag(folder, widths, contradictions):
+    """Write a bag of control periods and how wide the 95 % interval of d was in each [m]."""
+    rows = []
+    for k, (width, contradiction) in enumerate(zip(widths, contradictions, strict=True)):
+        t = 0.1 * k
+        values = {'theta': 0.1, 'theta_desired': math.radians(-10.0), 'phi': 1.5, 'state': 2.0}
+        rows.append(('/push_controller/state', JOINTS, t, joint_state(t, **values)))
+        bounds = {'d_lower': -width / 2, 'd_upper': width / 2, 'd_least': -0.025, 'd_most': 0.025}
+        sensed = joint_state(t, d=0.0, **bounds, contradiction=contradiction)
+        rows.append(('/active_sensing/state', JOINTS, t, sensed))
+    return written(folder, *rows)

@@ -2,25 +2,20 @@
 # SPDX-License-Identifier: Apache-2.0
 """What commands do when what they write cannot be written, or nobody reads it."""
 
+import json
+import math
 import os
-import resource
 import shutil
-import signal
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
-BAG = Path(__file__).resolve().parents[1] / 'data' / 'block'
-COMMAND = [sys.executable, '-m', 'tactile_push.cli']
+from support.commands import BAG, few_bytes, run_command
+from tactile_push.bags import BagError
+from tactile_push.cli import output
+from tactile_push.cli.arguments import Refused
+
 FULL = Path('/dev/full')
-
-
-def run(*arguments: object, **options) -> subprocess.CompletedProcess[str]:
-    words = [*COMMAND, *map(str, arguments)]
-    options = {'stdout': subprocess.PIPE} | options
-    return subprocess.run(words, stderr=subprocess.PIPE, text=True, timeout=60, **options)
 
 
 @pytest.mark.skipif(not FULL.exists(), reason='needs /dev/full')
@@ -36,7 +31,7 @@ def run(*arguments: object, **options) -> subprocess.CompletedProcess[str]:
 )
 def test_full_standard_output_is_said_and_is_no_difference(arguments):
     with FULL.open('w') as full:
-        done = run(*arguments, stdout=full)
+        done = run_command(*arguments, stdout=full)
     assert done.returncode == 2
     assert done.stderr == (
         f'tactile_push {arguments[0]}: standard output: No space left on device\n'
@@ -49,30 +44,14 @@ def test_full_standard_output_is_said_and_is_no_difference(arguments):
 def test_closed_pipe_is_silent_and_is_no_difference(command):
     reading, writing = os.pipe()
     os.close(reading)
-    done = run(*command, stdout=writing)
+    done = run_command(*command, stdout=writing)
     os.close(writing)
     assert (done.returncode, done.stderr) == (141, '')
 
 
-def few_bytes() -> None:
-    """Let files grow no larger than 8 kB."""
-    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (8192, 8192))
-
-
-def test_page_that_cannot_be_written_leaves_the_old_one(tmp_path: Path):
-    page = tmp_path / 'page.html'
-    page.write_text('old')
-    done = run('report', BAG, '-o', page, preexec_fn=few_bytes)
-    assert done.returncode == 2
-    assert done.stderr == f'tactile_push report: {page}: File too large\n'
-    assert page.read_text() == 'old'
-    assert list(tmp_path.iterdir()) == [page]
-
-
 @pytest.mark.parametrize('command', ['replay', 'estimate'])
 def test_bag_that_cannot_be_written_is_not_left_behind(command, tmp_path: Path):
-    done = run(command, BAG, '-o', tmp_path / 'again', preexec_fn=few_bytes)
+    done = run_command(command, BAG, '-o', tmp_path / 'again', preexec_fn=few_bytes)
     assert done.returncode == 2
     (line,) = done.stderr.splitlines()
     assert line.startswith(f'tactile_push {command}: {tmp_path / "again"}')
@@ -81,25 +60,16 @@ def test_bag_that_cannot_be_written_is_not_left_behind(command, tmp_path: Path):
 
 
 def test_json_that_cannot_be_written_is_not_left_behind(tmp_path: Path):
-    done = run('replay', BAG, '--json', tmp_path / 'r.json', preexec_fn=few_bytes)
+    done = run_command('replay', BAG, '--json', tmp_path / 'r.json', preexec_fn=few_bytes)
     assert done.returncode == 2
     assert done.stderr == f'tactile_push replay: {tmp_path / "r.json"}: File too large\n'
     assert list(tmp_path.iterdir()) == []
 
 
 def test_json_goes_to_what_is_no_file(tmp_path: Path):
-    done = run('replay', BAG, '--json', '/dev/stdout')
+    done = run_command('replay', BAG, '--json', '/dev/stdout')
     assert done.returncode == 0
     assert done.stdout.startswith('{"fingers"')
-
-
-def test_unknown_option_points_to_the_help_of_its_command():
-    done = run('record', '--outt')
-    assert done.returncode == 2
-    assert done.stderr == (
-        'tactile_push record: error: unrecognized arguments: --outt; '
-        'see tactile_push record --help\n'
-    )
 
 
 def test_error_is_one_line_where_there_is_no_terminal(tmp_path: Path):
@@ -108,6 +78,37 @@ def test_error_is_one_line_where_there_is_no_terminal(tmp_path: Path):
     for file in empty.glob('*.mcap'):
         file.unlink()
     for command in ('info', 'replay', 'estimate', 'report'):
-        done = run(command, empty)
+        done = run_command(command, empty)
         assert done.returncode == 2
         assert len(done.stderr.splitlines()) == 1, done.stderr
+
+
+def test_warning_names_the_command(capsys):
+    output.warner('info')('the bag is cut off')
+    assert capsys.readouterr() == ('', 'tactile_push info: warning: the bag is cut off\n')
+
+
+def test_json_has_text_for_what_json_cannot_say():
+    values = {'a': [math.inf, (math.nan, 1.5)], 'b': Path('bag'), 'c': b'\x01\xff', 'd': None}
+    expected = {'a': ['inf', ['nan', 1.5]], 'b': 'bag', 'c': [1, 255], 'd': None}
+    assert output.plain(values) == expected
+    assert json.loads(json.dumps(output.plain(values), allow_nan=False)) == expected
+
+
+@pytest.mark.parametrize('error', [BagError('no bag'), ValueError('no number')])
+def test_what_is_wrong_with_a_bag_is_refused_while_it_is_open(error):
+    with (
+        pytest.raises(Refused, match=str(error)) as refused,
+        output.opened(BAG, print) as bag,
+    ):
+        assert bag.counts
+        raise error
+    assert refused.value.status == 2
+
+
+def test_quantity_is_told_with_its_intervals_in_the_unit_of_people():
+    values = {'d': 0.00107, 'd_lower': 0.000984, 'd_upper': 0.00117}
+    values |= {'d_least': -0.000001, 'd_most': math.inf}
+    words = output.bounded(values, 'd', 1e3, 2)
+    assert words == '1.07, 95 %: 0.98 to 1.17, guaranteed: 0.00 to ∞'
+    assert output.bounded(values | {'d': math.nan}, 'd', 1e3, 2).startswith('unknown, 95 %')

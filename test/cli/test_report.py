@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""The command: which file it writes, what it says, and how it ends."""
+"""`tactile_push report`: which file it writes, what it says, and how it ends."""
 
 import json
+from pathlib import Path
 
 import pytest
 
+from support.commands import BAG, few_bytes, run_command
 from support.pushed_bag import START, write_bag
 from tactile_push.bags import BagWriter
 from tactile_push.cli import main
@@ -84,3 +86,13 @@ def test_damage_is_told_on_the_page_and_beside_it(bag, tmp_path, capsys):
     assert warning.startswith('tactile_push report: warning: ')
     told = warning.removeprefix('tactile_push report: warning: ')
     assert f'<p>{told}</p>' in (tmp_path / 'page.html').read_text()
+
+
+def test_page_that_cannot_be_written_leaves_the_old_one(tmp_path: Path):
+    page = tmp_path / 'page.html'
+    page.write_text('old')
+    done = run_command('report', BAG, '-o', page, preexec_fn=few_bytes)
+    assert done.returncode == 2
+    assert done.stderr == f'tactile_push report: {page}: File too large\n'
+    assert page.read_text() == 'old'
+    assert list(tmp_path.iterdir()) == [page]
