@@ -7,18 +7,7 @@ from importlib.util import find_spec
 
 
 def ros_is_missing(who: str) -> bool:
-    """Return whether Python finds no ROS 2, and print what to do about it if so.
-
-    Parameters
-    ----------
-    who : str
-        The command or node that needs ROS 2.
-
-    Returns
-    -------
-    bool
-        Whether `rclpy` is missing.
-    """
+    """Return whether Python finds no ROS 2, and print what the command or node needs if so."""
     if find_spec('rclpy') is not None:
         return False
     print(

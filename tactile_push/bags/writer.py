@@ -17,13 +17,7 @@ from mcap.writer import LIBRARY_IDENTIFIER, CompressionType, Writer
 
 from tactile_push.bags.definitions import schema_text
 from tactile_push.bags.disk import Disk, DiskFile, sync_directory, write_whole
-from tactile_push.bags.metadata import (
-    FileMetadata,
-    Messages,
-    TopicMetadata,
-    bag_metadata,
-    to_yaml,
-)
+from tactile_push.bags.metadata import FileMetadata, Messages, TopicMetadata, bag_metadata, to_yaml
 
 # Longest time for which a message stays in memory while others follow it [s]. With the time that
 # the disk then takes, a power cut loses no more than a second.

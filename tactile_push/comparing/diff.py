@@ -26,36 +26,13 @@ def diff(
     times: bool = False,
     progress: Callable[[int], None] | None = None,
 ) -> list[TopicDiff]:
-    """Compare two bags.
+    """Compare two bags and return one `TopicDiff` for each topic, in the order of their names.
 
     Messages of a topic belong together if their headers have the same stamp, the first with the
-    first where a stamp repeats; without headers, by their order. Memory is bounded: see
-    `tactile_push.comparing.pairing.pairs_by_stamp`. A topic without messages counts as missing.
-
-    Parameters
-    ----------
-    a, b : BagReader
-        The bags.
-    tolerances : Tolerances, optional
-        How far apart numbers may be; not at all by default.
-    topics : collection of str, optional
-        Names of the topics to compare; all by default.
-    ignore : collection of str, optional
-        Names of topics not to compare.
-    times : bool, optional
-        Whether to compare log and publish times too.
-    progress : callable, optional
-        Gets the number of messages read, now and then.
-
-    Returns
-    -------
-    list of TopicDiff
-        One for each topic, in the order of their names.
-
-    Raises
-    ------
-    BagError
-        If a bag cannot be read, or neither has a topic or a field that is named.
+    first where a stamp repeats; without headers, by their order. A topic without messages counts as
+    missing. `times` compares log and publish times too; `progress` is called with the number of
+    messages read, now and then. BagError if a bag cannot be read or a named topic or field is not
+    there.
     """
     there = {name for bag in (a, b) for name in bag.topics}
     tolerances = tolerances or Tolerances()

@@ -11,20 +11,13 @@ from typing import Any
 class Tolerances:
     """How far apart two numbers may be and still count as equal.
 
-    An infinite tolerance leaves a field out, whatever it holds and whichever bag has it.
-
-    Parameters
-    ----------
-    default : float
-        For all numbers, in their units; a time is in seconds.
-    fields : mapping of (str, str) to float, optional
-        By topic and field. A field is named by its whole path or by a part of it that reaches to
-        its beginning or end: ``'twist.linear.x'``, ``'twist.linear'``, ``'linear.x'``. If several
-        fit, the last one counts.
+    An infinite tolerance leaves a field out, whatever it holds and whichever bag has it. A field is
+    named by its whole path or by a part of it that reaches to its beginning or end:
+    ``'twist.linear.x'``, ``'twist.linear'``, ``'linear.x'``. If several fit, the last one counts.
     """
 
-    default: float = 0.0
-    fields: Mapping[tuple[str, str], float] = field(default_factory=dict)
+    default: float = 0.0  # for all numbers, in their units; a time is in seconds
+    fields: Mapping[tuple[str, str], float] = field(default_factory=dict)  # by topic and field
 
     def of(self, topic: str, path: str) -> float:
         """Return the tolerance of a field, given its topic and whole path, in the field's unit."""

@@ -30,11 +30,7 @@ class Control:
     """
 
     def __init__(
-        self,
-        push: PushControl,
-        finger: PlanarFinger,
-        joint_names: Sequence[str],
-        seconds: Seconds,
+        self, push: PushControl, finger: PlanarFinger, joint_names: Sequence[str], seconds: Seconds
     ) -> None:
         self.push = push
         self._finger = finger

@@ -54,54 +54,22 @@ class Player:
     A topic is left out with a warning if its messages are not CDR, or if its type is not installed
     or is another version of the recorded one. The player decodes the first message of each topic
     when it is due and warns if that fails; it publishes all messages as they are.
-
-    Parameters
-    ----------
-    node : rclpy.node.Node
-        Node that publishes; the caller spins it.
-    part : Part
-        What is played.
-    finished : callable
-        Called in the node's thread at the end of the play, or after an error, but not after `stop`.
-    rate : float, optional
-        Seconds of the bag per second.
-    loop : bool, optional
-        Whether to start over at the end, for ever.
-    clock_rate : float, optional
-        How often `/clock` is published, by the bag's time, besides before each message [Hz]; 0 for
-        never. While time stands still it is repeated.
-    paused : bool, optional
-        Whether the play begins paused.
-    names : mapping of str to str, optional
-        New names of topics.
-
-    Attributes
-    ----------
-    published : int
-        Messages so far.
-    error : Exception or None
-        What ended the play early.
-
-    Raises
-    ------
-    BagError
-        If no topic can be published.
     """
 
     def __init__(
         self,
         node: Node,
         part: Part,
-        finished: Callable[[], None],
+        finished: Callable[[], None],  # called in the node's thread at the end or after an error
         *,
         rate: float = 1.0,
         loop: bool = False,
-        clock_rate: float = 0.0,
+        clock_rate: float = 0.0,  # of /clock by the bag's time, besides before each message [Hz]
         paused: bool = False,
-        names: Mapping[str, str] | None = None,
+        names: Mapping[str, str] | None = None,  # new ones of topics
     ) -> None:
         self.published = 0
-        self.error: Exception | None = None
+        self.error: Exception | None = None  # what ended the play early
         self._node = node
         self._publishers = _make_publishers(node, part, names or {})
         self._part = part = replace(part, topics=tuple(self._publishers))

@@ -70,21 +70,9 @@ class Recorder:
     If the type of a topic is not installed, or differs from the type that is recorded, the recorder
     reports that once.
 
-    Parameters
-    ----------
-    node : rclpy.node.Node
-        Node that subscribes; the caller spins it. If the bag cannot be written, OSError is raised
-        there.
-    topics : sequence of str or None
-        Topics to record, expanded and remapped like all names of the node; None for all that are
-        not hidden.
-    writer : BagWriter
-        Bag to write to. The caller closes it, after `stop`.
-
-    Attributes
-    ----------
-    counts : dict of str to int
-        Messages written so far, by full topic name.
+    The caller spins the node, where an OSError is raised if the bag cannot be written, and closes
+    the writer after `stop`. `topics` are expanded and remapped like all names of the node; None
+    stands for all that are not hidden. `counts` are the messages written by full topic name.
     """
 
     def __init__(self, node: Node, topics: Sequence[str] | None, writer: BagWriter) -> None:

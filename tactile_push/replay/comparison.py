@@ -12,97 +12,51 @@ from tactile_push.pipeline import Felt
 
 
 class ReplayedTick(NamedTuple):
-    """A control period of the replay beside the recorded one, NaN where there is none.
+    """A control period of the replay beside the recorded one, NaN where there is none."""
 
-    Parameters
-    ----------
-    time : float
-        Since the beginning of the bag [s].
-    theta, phi : float
-        What the law used and gave [rad].
-    v_x, v_x_recorded : float
-        What it commands now, and what was commanded then [m/s].
-    state, stop_reason : str
-        As it is now.
-    """
-
-    time: float
-    theta: float
-    phi: float
-    v_x: float
-    v_x_recorded: float
+    time: float  # since the beginning of the bag [s]
+    theta: float  # what the law used [rad]
+    phi: float  # what the law gave [rad]
+    v_x: float  # what the law commands now [m/s]
+    v_x_recorded: float  # what was commanded then [m/s]
     state: str
     stop_reason: str
 
 
 class SensedTick(NamedTuple):
-    """Where along the edge the finger was by one control period.
+    """Where along the edge the finger was by one control period."""
 
-    Parameters
-    ----------
-    time : float
-        Of the control period, since the beginning of the bag [s].
-    d, d_lower, d_upper, d_least, d_most : float
-        The contact, its 95 % interval and its guaranteed bounds at the last reading [m]; d is NaN
-        if nothing is known.
-    """
-
-    time: float
-    d: float
-    d_lower: float
+    time: float  # of the control period, since the beginning of the bag [s]
+    d: float  # the contact at the last reading [m]; NaN if nothing is known
+    d_lower: float  # bounds of its 95 % interval [m]
     d_upper: float
-    d_least: float
+    d_least: float  # its guaranteed bounds [m]
     d_most: float
 
     @classmethod
     def of(cls, time: float, values: Mapping[str, float]) -> 'SensedTick':
-        """Take what the numbers of `active_sensing/state` say of d at a time [s]."""
+        """Return what the numbers of `active_sensing/state` say of d at a time [s]."""
         return cls(time, *(values[name] for name in cls._fields[1:]))
 
     def as_json(self) -> dict[str, object]:
-        """Give it as plain values, SI units; null where there is no number."""
+        """Return plain values in SI units, None where there is no number."""
         return {name: _plain(value) for name, value in self._asdict().items()}
 
 
 @dataclass
 class Comparison:
-    """How the commands of a finger compare.
+    """How the commands of a finger compare."""
 
-    Parameters
-    ----------
-    finger : str
-        Its namespace, '' for the root.
-
-    Attributes
-    ----------
-    ticks : list of ReplayedTick
-        The control periods.
-    kept : int
-        Control periods at the bag's beginning that depend on what was before, kept as recorded.
-    went_back : int
-        How many of these have a stamp before that of the one before them.
-    recorded : bool
-        Whether the bag has control periods to compare with.
-    readings, contacts : int
-        Readings replayed, and contacts found in them.
-    refused : dict of str to int
-        Readings refused, by reason.
-    without_effect : list of str
-        Parameters that were wanted otherwise but that the bag decides, each with its node.
-    sensed : list of SensedTick or None
-        Where along the edge the finger was; None if the object was not sensed.
-    """
-
-    finger: str
+    finger: str  # its namespace, '' for the root
     ticks: list[ReplayedTick] = field(default_factory=list)
-    kept: int = 0
-    went_back: int = 0
-    recorded: bool = True
-    readings: int = 0
-    contacts: int = 0
-    refused: dict[str, int] = field(default_factory=dict)
-    without_effect: list[str] = field(default_factory=list)
-    sensed: list[SensedTick] | None = None
+    kept: int = 0  # first control periods, which depend on what was before the bag
+    went_back: int = 0  # of those kept: with a stamp before that of the one before them
+    recorded: bool = True  # whether the bag has control periods to compare with
+    readings: int = 0  # replayed
+    contacts: int = 0  # found in them
+    refused: dict[str, int] = field(default_factory=dict)  # readings by reason
+    without_effect: list[str] = field(default_factory=list)  # wanted parameters the bag decides
+    sensed: list[SensedTick] | None = None  # None if the object was not sensed
     _last_kept: int = field(default=0, repr=False)  # its stamp [ns]
 
     def count(self, felt: Felt) -> None:
@@ -123,13 +77,13 @@ class Comparison:
         self.recorded = recorded is not None
         self.ticks.append(
             ReplayedTick(
-                time,
-                tick.theta,
-                tick.phi,
-                _number(tick.v_x),
-                _number(recorded.v_x) if recorded else math.nan,
-                tick.state,
-                tick.stop_reason,
+                time=time,
+                theta=tick.theta,
+                phi=tick.phi,
+                v_x=_number(tick.v_x),
+                v_x_recorded=_number(recorded.v_x if recorded else None),
+                state=tick.state,
+                stop_reason=tick.stop_reason,
             )
         )
 
@@ -145,7 +99,7 @@ class Comparison:
         ]
 
     def as_json(self) -> dict[str, object]:
-        """Give it all as plain values, SI units; null where there is no number."""
+        """Return plain values in SI units, None where there is no number."""
         different = len(self.different()) if self.recorded else None
         return {
             'finger': self.finger,

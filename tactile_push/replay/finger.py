@@ -54,11 +54,7 @@ class Finger:
     """
 
     def __init__(
-        self,
-        namespace: str,
-        topics: Collection[str],
-        parameters: FingerParameters,
-        bag: BagReader,
+        self, namespace: str, topics: Collection[str], parameters: FingerParameters, bag: BagReader
     ) -> None:
         self._namespace = namespace
         self._parameters = parameters

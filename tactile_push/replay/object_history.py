@@ -41,50 +41,21 @@ class Forgotten:
 
 @dataclass(frozen=True)
 class ObjectFigures:
-    """What a bag tells about an object.
+    """What a bag tells about an object."""
 
-    Parameters
-    ----------
-    finger : str
-        Namespace of the finger that pushed it, '' for the root.
-    object_told : bool
-        Whether somebody said what was pushed; otherwise the paper's block was assumed.
-    ticks : list of SensedTick
-        What each control period told of d.
-    readings : int
-        Readings that were taken.
-    values : dict of str to float or None
-        Numbers of `active_sensing/state` of the last control period after which anything was known,
-        SI units; None if nothing ever was.
-    at : float or None
-        When that was [s], from the start of the bag.
-    known_step : int or None
-        Step from which on d stayed known to 2 mm, see `tactile_push.report.merit.known_step`.
-    contradictions : list of Contradiction
-        When the readings contradicted the object.
-    forgotten : list of Forgotten
-        When everything was forgotten.
-    compared : int
-        Control periods after which anything was known and for which a simulator told the true d.
-    inside, inside_guaranteed : float or None
-        Share of them with the true d in the 95 % interval and in the guaranteed one.
-    paper : PaperFigures or None
-        What the paper publishes of the same experiment.
-    """
-
-    finger: str
-    object_told: bool
-    ticks: list[SensedTick]
-    readings: int
-    values: dict[str, float] | None
-    at: float | None
-    known_step: int | None
+    finger: str  # namespace of the finger that pushed it, '' for the root
+    object_told: bool  # whether somebody named the object; otherwise it is the paper's block
+    ticks: list[SensedTick]  # what each control period told of d
+    readings: int  # that were taken
+    values: dict[str, float] | None  # last `active_sensing/state` with anything known; None without
+    at: float | None  # when that was [s], from the start of the bag
+    known_step: int | None  # step from which d stayed known to 2 mm
     contradictions: list[Contradiction]
     forgotten: list[Forgotten]
-    compared: int
-    inside: float | None
-    inside_guaranteed: float | None
-    paper: PaperFigures | None
+    compared: int  # control periods with anything known and with a simulator's true d
+    inside: float | None  # share of them with the true d in the 95 % interval
+    inside_guaranteed: float | None  # share of them with the true d in the guaranteed bounds
+    paper: PaperFigures | None  # what the paper publishes of the same experiment
 
 
 class ObjectHistory:

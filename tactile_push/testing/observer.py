@@ -27,17 +27,11 @@ M = TypeVar('M')
 
 
 class Heard(list[M]):
-    """Messages in the order in which they arrived.
-
-    Attributes
-    ----------
-    times : list of float
-        When each arrived, on the steady clock (`time.monotonic`) [s].
-    """
+    """Messages in the order in which they arrived."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.times: list[float] = []
+        self.times: list[float] = []  # when each arrived, by `time.monotonic` [s]
 
     def append(self, message: M) -> None:
         """Add a message that arrives now."""
@@ -64,26 +58,16 @@ class Observer:
     domain : int
         ROS domain.
     name : str, optional
-        Name of its node.
-    patience : float, optional
-        How long `wait_for` and the services wait [s].
-
-    Attributes
-    ----------
-    node : rclpy.node.Node
-        Its node.
+        Name of its `node`.
     """
 
-    def __init__(self, domain: int, name: str = 'observer', patience: float = PATIENCE) -> None:
+    def __init__(self, domain: int, name: str = 'observer') -> None:
         os.environ.update(loopback())
         self._is_default = not get_default_context().ok()
         self._context = get_default_context() if self._is_default else Context()
         rclpy.init(
-            context=self._context,
-            domain_id=domain,
-            signal_handler_options=SignalHandlerOptions.NO,
+            context=self._context, domain_id=domain, signal_handler_options=SignalHandlerOptions.NO
         )
-        self._patience = patience
         self.node = Node(name, context=self._context)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
@@ -91,11 +75,9 @@ class Observer:
         self._clients: dict[str, Client] = {}
 
     def __enter__(self) -> 'Observer':
-        """Enter the block after which it leaves the domain."""
         return self
 
     def __exit__(self, *exception: object) -> None:
-        """Leave the domain."""
         self.close()
 
     def close(self) -> None:
@@ -111,12 +93,7 @@ class Observer:
         Parameters
         ----------
         node : rclpy.node.Node
-            The node; it is destroyed with the observer.
-
-        Raises
-        ------
-        ValueError
-            If the node is in another context, so that it would not hear the others.
+            A node in the observer's context; it is destroyed with the observer.
         """
         if node.context is not self._context:
             raise ValueError(
@@ -130,10 +107,8 @@ class Observer:
 
         Parameters
         ----------
-        message_type : type
-            Type of the messages.
-        topic : str
-            Name of the topic.
+        message_type, topic : type, str
+            Type of the messages and name of the topic.
 
         Returns
         -------
@@ -160,8 +135,8 @@ class Observer:
         while (left := end - time.monotonic()) > 0.0:
             self._executor.spin_once(timeout_sec=left)
 
-    def wait_for(self, condition: Callable[[], M], what: str, patience: float | None = None) -> M:
-        """Hear until a condition holds.
+    def wait_for(self, condition: Callable[[], M], what: str, patience: float = PATIENCE) -> M:
+        """Hear until a condition holds; TimeoutError if it never does.
 
         Parameters
         ----------
@@ -170,19 +145,13 @@ class Observer:
         what : str
             What is waited for, for the error's message.
         patience : float, optional
-            How long to wait at the most [s]; the observer's by default.
+            How long to wait at the most [s].
 
         Returns
         -------
         object
-            What the condition gave: the first value that is true.
-
-        Raises
-        ------
-        TimeoutError
-            If it never holds.
+            The first value of the condition that is true.
         """
-        patience = self._patience if patience is None else patience
         deadline = time.monotonic() + patience
         while not (outcome := condition()):
             if time.monotonic() > deadline:
@@ -191,18 +160,14 @@ class Observer:
         return outcome
 
     def call(
-        self, service_type: Any, service: str, request: Any, patience: float | None = None
+        self, service_type: Any, service: str, request: Any, patience: float = PATIENCE
     ) -> Any:
-        """Call a service once it is there and return its answer.
+        """Call a service once it is there.
 
         Parameters
         ----------
-        service_type : type
-            Type of the service.
-        service : str
-            Name of the service.
-        request : object
-            What to ask.
+        service_type, service, request : type, str, object
+            Type and name of the service, and what to ask.
         patience : float, optional
             How long to wait at the most [s].
 
@@ -211,7 +176,9 @@ class Observer:
         object
             The response.
         """
-        client = self._client(service_type, service)
+        if service not in self._clients:
+            self._clients[service] = self.node.create_client(service_type, service)
+        client = self._clients[service]
         self.wait_for(client.service_is_ready, f'service {service}', patience)
         future = client.call_async(request)
         self.wait_for(future.done, f'an answer of {service}', patience)
@@ -222,10 +189,8 @@ class Observer:
 
         Parameters
         ----------
-        node : str
-            Name of the node.
-        transition : int
-            Id of the transition, see lifecycle_msgs/Transition.
+        node, transition : str, int
+            Name of the node, and a constant of lifecycle_msgs/Transition.
 
         Returns
         -------
@@ -243,42 +208,30 @@ class Observer:
         node : str
             Name of the node.
         **values : object
-            New values by the parameters' names.
+            New values by name.
 
         Returns
         -------
         list of SetParametersResult
-            The node's answer to each: `successful` and `reason`.
+            The node's answer to each.
         """
         parameters = [Parameter(n, value=v).to_parameter_msg() for n, v in values.items()]
         request = SetParameters.Request(parameters=parameters)
         return list(self.call(SetParameters, f'{node}/set_parameters', request).results)
 
-    def _client(self, service_type: Any, service: str) -> Client:
-        if service not in self._clients:
-            self._clients[service] = self.node.create_client(service_type, service)
-        return self._clients[service]
-
 
 def field(message: Any, name: str) -> float:
-    """Return a position of a JointState message by its name.
+    """Return a position of a JointState by its name; ValueError if it has no such name.
 
     Parameters
     ----------
-    message : sensor_msgs.msg.JointState
-        The message.
-    name : str
-        The name.
+    message, name : sensor_msgs.msg.JointState, str
+        The message and the name.
 
     Returns
     -------
     float
         The position.
-
-    Raises
-    ------
-    ValueError
-        If the message has no such name.
     """
     return float(message.position[list(message.name).index(name)])
 

@@ -25,7 +25,7 @@ class NodeProcesses:
     """Starts nodes and, on leaving the `with` block, stops all of them.
 
     The nodes talk among themselves alone: discovery stays on this machine, and no two of these
-    objects share a ROS domain, whichever processes they live in.
+    objects share a ROS `domain`, whichever processes they live in.
 
     Parameters
     ----------
@@ -42,27 +42,20 @@ class NodeProcesses:
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        self._domain, self._lock = claim_domain()
+        self.domain, self._lock = claim_domain()
         self.environment = {
             **os.environ,
-            'ROS_DOMAIN_ID': str(self._domain),
+            'ROS_DOMAIN_ID': str(self.domain),
             **loopback(),
             'ROS_LOG_DIR': str(folder / 'ros_log'),
         }
         self.running: dict[str, subprocess.Popen[bytes]] = {}
 
     def __enter__(self) -> 'NodeProcesses':
-        """Enter the block after which the processes end."""
         return self
 
     def __exit__(self, *exception: object) -> None:
-        """Stop all processes."""
         self.stop()
-
-    @property
-    def domain(self) -> int:
-        """ROS domain of the nodes."""
-        return self._domain
 
     def start(
         self,
@@ -105,10 +98,8 @@ class NodeProcesses:
 
         Parameters
         ----------
-        name : str
-            What the process is called here.
-        command : list of str
-            The program and its arguments.
+        name, command : str, list of str
+            What the process is called here; the program and its arguments.
 
         Returns
         -------
@@ -161,11 +152,6 @@ def loopback() -> dict[str, str]:
 
     Fast DDS's shared memory, which the discovery range LOCALHOST always brings, is not used:
     whoever joins a domain can hold up everybody's publishing there for a third of a second.
-
-    Returns
-    -------
-    dict of str to str
-        Variables to set before a process makes its first node.
     """
     if not os.environ.get('RMW_IMPLEMENTATION', 'rmw_fastrtps_cpp').startswith('rmw_fastrtps'):
         return {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'}

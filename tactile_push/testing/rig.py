@@ -29,10 +29,8 @@ class Rig:
 
     Parameters
     ----------
-    nodes : NodeProcesses
-        Starts the nodes.
-    observer : Observer
-        Hears them.
+    nodes, observer : NodeProcesses, Observer
+        Starts the nodes and hears them.
     device : str
         Where the simulated sensor is: a path for a pseudo terminal, or socket://host:port.
     namespace : str, optional
@@ -70,7 +68,7 @@ class Rig:
         Returns
         -------
         str
-            The name with the namespace.
+            Such as '/left/contact'.
         """
         return f'/{self.namespace}/{name}' if self.namespace else f'/{name}'
 
@@ -128,10 +126,8 @@ class Rig:
 
         Parameters
         ----------
-        node : str
-            The node.
-        parameters : mapping of str to object
-            Parameters that take precedence over the configuration.
+        node, parameters : str, mapping of str to object
+            The node, and parameters that take precedence over the configuration.
         arguments : tuple of str, optional
             More ROS arguments.
 
@@ -175,24 +171,14 @@ class Rig:
         self.observer.wait_for(lambda: self.truth, 'the ground truth')
         return field(self.truth[-1], name)
 
+    @property
     def state(self) -> str:
-        """Return what the controller does.
-
-        Returns
-        -------
-        str
-            The newest of `tactile_push.control.STATES` that it said, '' before the first.
-        """
+        """What the controller does, one of `tactile_push.control.STATES`; '' before the first."""
         return STATES[int(field(self.states[-1], 'state'))] if self.states else ''
 
+    @property
     def reason(self) -> str:
-        """Return why the controller has stopped.
-
-        Returns
-        -------
-        str
-            One of `tactile_push.control.STOP_REASONS`, '' if it has not stopped.
-        """
+        """Why the controller stopped, one of `tactile_push.control.STOP_REASONS`; '' if not."""
         return STOP_REASONS[int(field(self.states[-1], 'stop_reason'))]
 
     def wait_until_moving(self) -> None:

@@ -102,7 +102,7 @@ class Bench:
             finger.activate()
 
     def is_in_the_middle(self) -> bool:
-        """Tell whether all objects lie so that the fingers can go on for long."""
+        """Return whether all objects lie so that the fingers can go on for long."""
         return all(finger.is_in_the_middle() for finger in self.fingers)
 
     def stopped(self, since: float, patience: float = 3.0, **how: Any) -> None:
@@ -110,7 +110,7 @@ class Bench:
         self.reaction = self.finger.stopped(since, patience, **how)
 
     def complaints(self) -> list[str]:
-        """Give what was heard since the last time and must not be, whatever the fault."""
+        """Return what was heard since the last time and must not be, whatever the fault."""
         self.observer.spin(SETTLE)
         found = [complaint for watch in self._watches for complaint in watch.complaints()]
         found += self._tracebacks()
@@ -137,7 +137,7 @@ class Bench:
         return found
 
     def _tracebacks(self) -> list[str]:
-        """Give what each log with a traceback ends with, and empty it."""
+        """Return what each log with a traceback ends with, and empty it."""
         found = []
         for log in sorted(Path(self._folder.name).glob('*.log')):
             said = log.read_text(errors='replace')

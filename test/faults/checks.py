@@ -111,7 +111,7 @@ class Watch:
         self._used: set[tuple[int, int]] = set()
 
     def complaints(self) -> list[str]:
-        """Give what is wrong with the messages heard since the last time."""
+        """Return what is wrong with the messages heard since the last time."""
         finger = self._finger
         offset = time.time() - time.monotonic()
         velocities = [

@@ -18,7 +18,7 @@ def _jumps(bench: Bench, seconds: float, *reasons: str) -> None:
     assert bench.clock is not None
     bench.stopped(bench.clock.jump(seconds))
     finger.expect_reason(*reasons)
-    finger.expect_rest(finger.reason())
+    finger.expect_rest(finger.reason)
     finger.resume()
 
 

@@ -31,7 +31,7 @@ SPOILED = 3.0  # for so long a fault that need not stop the finger lasts [s]
 
 
 def misread(azimuth_deg: float, elevation_deg: float) -> Reading:
-    """Give a reading that no contact has."""
+    """Return a reading that no contact has."""
     return Reading(math.radians(azimuth_deg), math.radians(elevation_deg))
 
 
@@ -183,7 +183,7 @@ def readings_jump(bench: Bench) -> None:
     finger.proxy.mend()
     far = [m for m in finger.contacts.since(at) if abs(yaw(m)) > FAR]
     expect(not far, f'{len(far)} jumps became contacts')
-    expect(finger.state() == 'pushing', f'it is {finger.state()}')
+    expect(finger.state == 'pushing', f'it is {finger.state}')
     finger.wait_until_moving()
 
 

@@ -133,7 +133,7 @@ class Finger(Rig):
         self.wait_until_moving(patience)
 
     def is_in_the_middle(self) -> bool:
-        """Tell whether the object lies so that the finger can go on for long."""
+        """Return whether the object lies so that the finger can go on for long."""
         last = self.truth[-1]
         return abs(field(last, 'theta')) < MOST_THETA and abs(field(last, 'd')) < MOST_D
 
@@ -143,7 +143,7 @@ class Finger(Rig):
 
         def moving() -> bool:
             last = [field(m, 'v_x') for m in self.truth[seen:][-5:]]
-            return self.state() == PUSHING and len(last) == 5 and min(map(abs, last)) > MOVING
+            return self.state == PUSHING and len(last) == 5 and min(map(abs, last)) > MOVING
 
         self.observer.wait_for(moving, f'{self.name("finger")} to move', patience)
         return self.truth.times[-1]
@@ -179,14 +179,14 @@ class Finger(Rig):
         return [(at, field(m, 'v_x')) for at, m in self.truth.timed(-500)]
 
     def reasons_since(self, at: float) -> set[str]:
-        """Give all reasons that the controller gave after a moment, '' for none."""
+        """Return all reasons that the controller gave after a moment, '' for none."""
         return {STOP_REASONS[int(field(m, 'stop_reason'))] for m in self.states.since(at)}
 
     def expect_reason(self, *reasons: str) -> None:
         """Wait for the controller to say why it has stopped."""
         self.observer.wait_for(
-            lambda: self.reason() in reasons,
-            f'reason {" or ".join(reasons)}, it was {self.reason()}',
+            lambda: self.reason in reasons,
+            f'reason {" or ".join(reasons)}, it was {self.reason}',
             1.0,
         )
 
@@ -195,7 +195,7 @@ class Finger(Rig):
         said = len(self.commands)
         self.observer.spin(seconds)
         moving = [h for h in self.commands[said:] if h.twist.linear.x != 0.0]
-        if moving or self.reason() != reason:
+        if moving or self.reason != reason:
             raise BrokenPromiseError(f'resumed on its own from {reason}')
 
     def resume(self) -> None:
@@ -210,13 +210,13 @@ class Finger(Rig):
     def rest_or_push(self) -> None:
         """Wait until the controller pushes, or has stopped and says why."""
         self.observer.wait_for(
-            lambda: self.state() == PUSHING or self.reason() in STOP_REASONS[1:],
-            f'the controller to push or to say why not, it is {self.state()}',
+            lambda: self.state == PUSHING or self.reason in STOP_REASONS[1:],
+            f'the controller to push or to say why not, it is {self.state}',
             5.0,
         )
 
     def status(self, node: str) -> Any:
-        """Give the last diagnostic status of a node, None if it has said nothing."""
+        """Return the last diagnostic status of a node, None if it has said nothing."""
         name = self.name(node).lstrip('/')
         for heard in reversed(self.diagnostics):
             for status in heard.status:
@@ -234,7 +234,7 @@ class Finger(Rig):
         self.observer.wait_for(has_level, f'{node} to report level {level[0]}', patience)
 
     def count(self, node: str, name: str) -> int:
-        """Give a count of a node's diagnostics, 0 if it does not come up."""
+        """Return a count of a node's diagnostics, 0 if it does not come up."""
         status = self.status(node)
         values = {v.key: v.value for v in status.values} if status is not None else {}
         return int(values.get(name, 0))

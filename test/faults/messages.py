@@ -9,11 +9,11 @@ from geometry_msgs.msg import PoseStamped
 
 
 def stamp_of(message: Any) -> tuple[int, int]:
-    """Give a message's stamp to the bit [s, ns]."""
+    """Return a message's stamp to the bit [s, ns]."""
     return message.header.stamp.sec, message.header.stamp.nanosec
 
 
 def yaw(message: PoseStamped) -> float:
-    """Give the rotation about z of a pose that has no other [rad]."""
+    """Return the rotation about z of a pose that has no other [rad]."""
     rotation = message.pose.orientation
     return math.remainder(2.0 * math.atan2(rotation.z, rotation.w), 2.0 * math.pi)

@@ -67,12 +67,12 @@ WRONG_ARGUMENTS = (
 
 
 def value_of(value: Any) -> ParameterValue:
-    """Give a value as the service takes it; None is no value at all."""
+    """Return a value as the service takes it; None is no value at all."""
     return RosParameter('any', value=value).get_parameter_value()
 
 
 def wrong_values(parameter: Parameter) -> Iterator[Any]:
-    """Give what a parameter must not become while its node runs."""
+    """Return what a parameter must not become while its node runs."""
     kind = type(parameter.default)
     yield from (v for v in (True, 1, 1.0, '1.0', None) if type(v) is not kind)
     yield [1.0]

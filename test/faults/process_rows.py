@@ -158,6 +158,6 @@ def processors_busy(bench: Bench) -> None:
     with busy_cores(STARVED):
         bench.observer.spin(STARVED)
     finger.rest_or_push()
-    if finger.reason() in ('ticks lost', 'clock jumped'):
+    if finger.reason in ('ticks lost', 'clock jumped'):
         finger.resume()
     finger.wait_until_moving()

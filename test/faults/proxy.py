@@ -178,13 +178,13 @@ class Corruption:
         self._random = random.Random(seed)
 
     def __call__(self, data: bytes) -> bytes:
-        """Give the bytes as they arrive."""
+        """Return the bytes as they arrive."""
         draw = self._random
         return bytes(b ^ draw.randrange(1, 256) if draw.random() < self._rate else b for b in data)
 
 
 def free_port() -> int:
-    """Give a port of this machine on which nobody listens."""
+    """Return a port of this machine on which nobody listens."""
     with _listen(0) as listener:
         return int(listener.getsockname()[1])
 

@@ -22,7 +22,7 @@ ATTEMPTS = 3
 
 
 def start_bench(setup: Setup) -> Bench:
-    """Give a running bench.
+    """Return a running bench.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ class Runner:
             self.outcomes[-1].broken += complaints
 
     def _ready(self, setup: Setup) -> Bench:
-        """Give a bench of this kind whose fingers push: the one that runs, unless it is used up."""
+        """Return a bench of this kind whose fingers push: the running one unless it is used up."""
         if self._bench is not None:
             if self._bench.setup == setup and self._bench.is_in_the_middle():
                 self._push(self._bench)

@@ -491,7 +491,7 @@ def test_device_goes_with_its_sensor(line):
 
 @pytest.fixture(scope='module')
 def real():
-    """Give a runner with real nodes for some rows."""
+    """Return a runner with real nodes for some rows."""
     with Runner(start_bench) as runner:
         yield runner
 

@@ -30,7 +30,7 @@ SECOND = 'second_controller'
 def contact(
     rotation: Quaternion | None = None, frame: str = FRAME, late: float = 0.0
 ) -> PoseStamped:
-    """Give a contact at theta = 60 degrees, stamped some time ago [s]."""
+    """Return a contact at theta = 60 degrees, stamped some time ago [s]."""
     message = PoseStamped()
     message.header.stamp.sec, message.header.stamp.nanosec = _stamp(late)
     message.header.frame_id = frame
@@ -173,7 +173,7 @@ def tactile_without_fields(bench: Bench) -> None:
 
 
 def command(v_x: float) -> TwistStamped:
-    """Give a command that is not the controller's."""
+    """Return a command that is not the controller's."""
     message = TwistStamped()
     message.header.stamp.sec, message.header.stamp.nanosec = _stamp()
     message.header.frame_id = 'finger_base'

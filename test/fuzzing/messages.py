@@ -27,7 +27,7 @@ INTEGERS = {
 
 
 def extremes(message: Any) -> Iterator[tuple[str, Any]]:
-    """Give copies of a message, each with one field, at any depth, at one of its extremes.
+    """Yield copies of a message, each with one field, at any depth, at one of its extremes.
 
     Parameters
     ----------

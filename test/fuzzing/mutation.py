@@ -27,7 +27,7 @@ FIELDS = (
 
 
 def valid(draw: random.Random, sequence: int) -> bytes:
-    """Give some readings of an edge that turns slowly, as a sensor sends them."""
+    """Return some readings of an edge that turns slowly, as a sensor sends them."""
     sentences = []
     for number in range(sequence, sequence + draw.randint(1, MOST_READINGS)):
         from_pole = math.radians(20.0) * math.sin(number / 200.0)
@@ -97,7 +97,7 @@ RARE = 0.01  # share of huge lines, which would be most of all bytes otherwise
 
 
 def mutated_input(draw: random.Random) -> Iterator[bytes]:
-    """Give pieces of device input without end, most of them spoiled, of any length but 0.
+    """Yield pieces of device input without end, most of them spoiled, of any length but 0.
 
     Parameters
     ----------

@@ -72,7 +72,7 @@ def send_extremes(bench: Bench, progress: Callable[[str], None] = lambda what: N
         _look(bench, topic)
     bench.observer.spin(1.0)
     finger.turn()
-    if finger.reason() in HELD:
+    if finger.reason in HELD:
         finger.resume()
     finger.wait_until_moving(10.0)
     _look(bench, 'at the end')
@@ -80,7 +80,7 @@ def send_extremes(bench: Bench, progress: Callable[[str], None] = lambda what: N
 
 
 def _stamped(message: Any) -> Any:
-    """Give a copy that is stamped now."""
+    """Return a copy that is stamped now."""
     fresh = copy.deepcopy(message)
     stamp = fresh.header.stamp
     stamp.sec, stamp.nanosec = divmod(time.time_ns(), 1_000_000_000)

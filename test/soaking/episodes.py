@@ -59,7 +59,7 @@ class Episode:
 
 
 def episodes(draw: random.Random) -> Iterator[Episode]:
-    """Give episodes without end: every fault once, in any order, and again.
+    """Yield episodes without end: every fault once, in any order, and again.
 
     Parameters
     ----------

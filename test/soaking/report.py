@@ -47,7 +47,7 @@ class Report:
     broken: list[str] = field(default_factory=list)
 
     def growth(self, process: str) -> float:
-        """Give the slope of a process's memory after the warm-up.
+        """Return the slope of a process's memory after the warm-up.
 
         Parameters
         ----------
@@ -65,7 +65,7 @@ class Report:
         return float(np.polyfit(samples[:, 0], samples[:, 1], 1)[0])
 
     def _warm(self, process: str) -> npt.NDArray[np.float64]:
-        """Give the samples of a process after its own warm-up."""
+        """Return the samples of a process after its own warm-up."""
         samples = np.array(self.memory[process])
         return samples[round(WARM_UP * len(samples)) :]
 
@@ -93,7 +93,7 @@ class Report:
         return found
 
     def as_json(self) -> dict[str, Any]:
-        """Give the report as JSON has it.
+        """Return the report as JSON has it.
 
         Returns
         -------
@@ -109,7 +109,7 @@ class Report:
         }
 
     def lines(self) -> list[str]:
-        """Give the report for people.
+        """Return the report for people.
 
         Returns
         -------

@@ -225,7 +225,7 @@ class Soak:
 
 
 def resident_megabytes(pid: int) -> float:
-    """Give the memory that a process holds.
+    """Return the memory that a process holds.
 
     Parameters
     ----------

@@ -40,7 +40,7 @@ def main(script, monkeypatch, capsys):
 
 
 def growing(rate, hours=10.0, noise=0.3):
-    """Give memory that grows at a rate after it has settled, with noise."""
+    """Return memory that grows at a rate after it has settled, with noise."""
     draw = random.Random(1)
     times = [0.01 * k for k in range(int(100 * hours) + 1)]
     return [
