@@ -2,13 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The control law and when it may act: Section IV."""
 
-from tactile_push.control.law import (
-    AHEAD,
-    PushLaw,
-    finger_velocity,
-    motion_angle,
-    push_angle,
-)
+from tactile_push.control.law import AHEAD, PushLaw, finger_velocity, motion_angle, push_angle
 from tactile_push.control.limits import Limits, plausible
 from tactile_push.control.newest import Newest
 from tactile_push.control.push_control import PushControl, Tick

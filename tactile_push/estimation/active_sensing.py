@@ -3,10 +3,9 @@
 """From the ticks of the controller to what is known of the object."""
 
 import math
-from typing import Protocol
 
 from tactile_push.estimation.finger_motion import FingerMotion
-from tactile_push.estimation.object_estimator import ObjectEstimate
+from tactile_push.estimation.object_estimator import Estimator, ObjectEstimate
 
 # Why everything was forgotten.
 CONTACT_LOST = 'contact lost'
@@ -16,22 +15,6 @@ TIME_WENT_BACK = 'time went back'
 
 SAME_STAMP = 1e-6  # in which two stamps are the same [s]
 FASTEST = 1.0  # a finger that is said to be faster moves in a way that is not known [m/s]
-
-
-class Estimator(Protocol):
-    """What can be fed with pushes."""
-
-    def push(self, theta: float, v_x: float, v_y: float, duration: float) -> ObjectEstimate:
-        """Take a push and the reading at its end."""
-        ...
-
-    def estimate(self) -> ObjectEstimate:
-        """Return what is known."""
-        ...
-
-    def reset(self) -> None:
-        """Forget everything but the prior."""
-        ...
 
 
 class ActiveSensing:
@@ -45,8 +28,8 @@ class ActiveSensing:
 
     Parameters
     ----------
-    estimator : Estimator
-        What is fed: an `ObjectEstimator` or a `DiskEstimator`.
+    estimator : ObjectEstimator or DiskEstimator
+        What is fed.
     motion : FingerMotion
         How the finger answers its commands.
     belt_speed : float

@@ -22,82 +22,35 @@ HYPOTHESIS_GONE = 11.0  # one less likely than the best by exp(11), 6e4 times, i
 
 @dataclass(frozen=True)
 class Liberties:
-    """How far a real object may be from one with an ellipsoidal limit surface.
+    """How far a real object may be from one with an ellipsoidal limit surface."""
 
-    Parameters
-    ----------
-    growth : tuple of float, optional
-        Mean and standard deviation of how much c^2 grows while the object turns, as a share of it
-        (`resistance`): 0 on an ellipsoid, 1.9 to 2.9 under most pressures.
-    shape : tuple of float, optional
-        The same of how far c^2 depends on the direction of motion as the second moment of the
-        outline's area does: 0 on an ellipsoid, 1 under uniform pressure.
-    drift : float, optional
-        Standard deviation of the change of ln(c) while the direction in which the contact moves
-        changes by 1 rad, or the turn per l of way does; it grows with the root of the change.
-    scatter : float, optional
-        Standard deviation of the turn over 5 mm of way, as a share of it.
-    skew : float, optional
-        Standard deviation over 5 mm of way of the angle between the force and the motion of the
-        centre of mass, for a force at 45 degrees to the normal and a turn of 1 rad per l [rad].
-
-    Raises
-    ------
-    ValueError
-        If a number is not finite, or a standard deviation negative.
-    """
-
+    # Means and standard deviations. `growth` is how much c^2 grows while the object turns, as a
+    # share of it (`resistance`): 0 on an ellipsoid, 1.9 to 2.9 under most pressures. `shape` is how
+    # far c^2 depends on the direction of motion as the second moment of the outline's area does:
+    # 0 on an ellipsoid, 1 under uniform pressure.
     growth: tuple[float, float] = (1.5, 1.2)
     shape: tuple[float, float] = (0.5, 0.5)
+    # Standard deviations. `drift` is the change of ln(c) while the direction in which the contact
+    # moves changes by 1 rad, or the turn per l of way does; it grows with the root of the change.
+    # `scatter` is the share by which the turn over 5 mm of way differs. `skew` is the angle between
+    # the force and the motion of the centre of mass over 5 mm of way, for a force at 45 degrees to
+    # the normal and a turn of 1 rad per l [rad].
     drift: float = 0.04
     scatter: float = 0.013
     skew: float = 0.1
 
-    def __post_init__(self) -> None:
-        for name in ('drift', 'scatter', 'skew'):
-            value = getattr(self, name)
-            if not (math.isfinite(value) and value >= 0.0):
-                raise ValueError(f'{name}: expected a finite number of 0 or more, got {value}')
-        for name in ('growth', 'shape'):
-            mean, deviation = getattr(self, name)
-            if not (math.isfinite(mean) and math.isfinite(deviation) and deviation >= 0.0):
-                raise ValueError(
-                    f'{name}: expected a mean and a standard deviation, got {mean}, {deviation}'
-                )
-
 
 class Bank:
-    """A bank of hypotheses about one object.
-
-    Parameters
-    ----------
-    prior : Prior
-        What is known before.
-    radius : tuple of float
-        Radius of the finger's disk and its standard deviation [m].
-    liberties : Liberties
-        How far the object may be from the model.
-    noise : float
-        Standard deviation of the readings [rad].
-    outlier : float
-        Probability that a reading is wrong altogether.
-    curved : bool
-        Whether the object is a disk about its centre of mass.
-
-    Attributes
-    ----------
-    off : float
-        Share of the hypotheses whose contact has run off the edge.
-    """
+    """A bank of hypotheses about one object; a share `off` of them has run off the edge."""
 
     def __init__(
         self,
         prior: Prior,
-        radius: tuple[float, float],
+        radius: tuple[float, float],  # of the finger's disk, and its standard deviation [m]
         liberties: Liberties,
-        noise: float,
-        outlier: float,
-        curved: bool,
+        noise: float,  # standard deviation of the readings [rad]
+        outlier: float,  # probability that a reading is wrong altogether
+        curved: bool,  # whether the object is a disk about its centre of mass
     ) -> None:
         self._prior = prior
         self._liberties = liberties
@@ -161,28 +114,18 @@ class Bank:
         errors = ModelErrors(liberties.scatter, liberties.skew, liberties.drift)
         for _ in range(parts):
             hypotheses.predict(
-                self._means,
-                self._covariances,
-                self._motions,
-                self._moments,
-                Push(v_x, v_y, duration / parts),
-                errors,
-                self._curved,
+                *(self._means, self._covariances, self._motions, self._moments),
+                *(Push(v_x, v_y, duration / parts), errors, self._curved),
             )
 
     def read(self, theta: float) -> float:
         """Correct the hypotheses by a reading of theta [rad].
 
-        Returned is the logarithm of the probability density of the reading and of the contact's
-        being still on the edge [1/rad].
+        Return the logarithm of the probability density of the reading and of the contact's being
+        still on the edge [1/rad].
         """
         density = hypotheses.correct(
-            self._means,
-            self._covariances,
-            self._log_weights,
-            theta,
-            self._noise**2,
-            self._outlier,
+            self._means, self._covariances, self._log_weights, theta, self._noise**2, self._outlier
         )
         return math.log(density) + self._give_up()
 

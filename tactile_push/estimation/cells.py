@@ -44,30 +44,14 @@ class Interval(NamedTuple):
 
 
 class Bounds(NamedTuple):
-    """What bounds every cell alike.
+    """What bounds every cell alike."""
 
-    Parameters
-    ----------
-    d : Interval
-        Ends of the edge [m].
-    l : Interval
-        Distance from the edge to the centre of mass [m].
-    r : Interval
-        Radius of the finger's disk [m].
-    theta_0 : float
-        The first reading [rad].
-    turn : float
-        How far omega may be from the ellipsoid's, as a share of it, below 1.
-    cone : float
-        How far an edge of the motion cone may be from the ellipsoid's [rad].
-    """
-
-    d: Interval
-    l: Interval
-    r: Interval
-    theta_0: float
-    turn: float
-    cone: float
+    d: Interval  # ends of the edge [m]
+    l: Interval  # distance from the edge to the centre of mass [m]
+    r: Interval  # radius of the finger's disk [m]
+    theta_0: float  # the first reading [rad]
+    turn: float  # how far omega may be from the ellipsoid's, as a share of it, below 1
+    cone: float  # how far an edge of the motion cone may be from the ellipsoid's [rad]
 
 
 @equation
@@ -118,7 +102,7 @@ def left_edge(
 def slope(t: float, n: float) -> float:
     """Return t/n of a direction, `STEEPEST_EDGE` at the most.
 
-    It is minus infinity for a direction that leans to the left that far: there nothing slips.
+    A direction that leans to the left that far has minus infinity: nothing slips there.
     """
     if n * STEEPEST_EDGE <= abs(t):
         return STEEPEST_EDGE if t > 0.0 else -math.inf
@@ -147,8 +131,8 @@ def rate_bounds(
 ) -> tuple[Interval, Interval]:
     """Bound the rates for one theta and everything else in a cell.
 
-    Returned are bounds of omega, the rate of theta [rad/s], and of the velocity of slip, the rate
-    of d + r (theta - theta_0) [m/s]. `friction`, `cos` and `sin` are as in `left_slopes`.
+    Return bounds of omega, the rate of theta [rad/s], and of the velocity of slip, the rate of
+    d + r (theta - theta_0) [m/s]. `friction`, `cos` and `sin` are as in `left_slopes`.
     """
     l = bounds.l
     cos_theta, sin_theta = math.cos(theta), math.sin(theta)
@@ -180,21 +164,9 @@ def rate_bounds(
 
 @compiled
 def push_cells(cells: Array, push: Push, bounds: Bounds) -> int:
-    """Move all cells on by a short push, as long as the contact stays on the edge.
+    """Move all cells on by a push of half a millimetre at the most, and return how many are left.
 
-    Parameters
-    ----------
-    cells : ndarray, shape (H, 8)
-        The cells, changed; those that are left come first.
-    push : Push
-        The push, half a millimetre long at the most.
-    bounds : Bounds
-        What bounds every cell.
-
-    Returns
-    -------
-    int
-        How many are left.
+    Those that are left come first.
     """
     left, half, theta_0 = 0, push.duration / 2.0, bounds.theta_0
     middle, friction = np.empty(FACES), np.empty(4)
@@ -247,7 +219,7 @@ def cut_cells(cells: Array, theta_low: float, theta_high: float) -> int:
 def split_cells(cells: Array, count: int, l: float, r: float, theta_0: float) -> int:
     """Halve each of the first `count` cells across the side that says least about the turning rate.
 
-    There must be room for twice as many, which is returned.
+    Return the new count, twice the old one; the caller makes sure that there is room.
     """
     for h in range(count):
         cell = cells[h]

@@ -23,66 +23,34 @@ ANY_THETA = math.pi**2 / 12.0  # variance of a theta of which nothing is known [
 
 @dataclass(frozen=True)
 class Quantity:
-    """What is known of one number.
-
-    Parameters
-    ----------
-    mean : float
-        Its mean.
-    lower, upper : float
-        The 95 % interval.
-    least, most : float
-        Guaranteed bounds.
-    """
+    """What is known of one number."""
 
     mean: float
-    lower: float
+    lower: float  # the 95 % interval
     upper: float
-    least: float
+    least: float  # guaranteed bounds
     most: float
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """What is known at the last reading.
+    """What is known at the last reading."""
 
-    Parameters
-    ----------
-    d : Quantity
-        Contact along the edge [m].
-    c : Quantity
-        Ratio m_max / f_max [m]: that of the ellipsoid which turns as the object does when it
-        hardly turns, in the middle between the directions of its motion.
-    mu_c : Quantity
-        Friction between finger and object; its mean is that of the angle of friction.
-    theta : float
-        Angle of the edge, past the readings' noise [rad]; NaN before the first reading.
-    covariance : ndarray, shape (4, 4)
-        Covariance of theta, d, l and the radius of the finger's disk [rad, m, m, m].
-    l : float
-        Distance from the edge to the centre of mass [m].
-    radius : float
-        Radius of the finger's disk [m].
-    surprise : float
-        Mean square of the last readings' errors in units of what was expected, 1 on average.
-    contradiction : str
-        Why no number is to be believed; empty if data and model agree. All intervals are those
-        before any data then.
-    """
-
-    d: Quantity
+    d: Quantity  # contact along the edge [m]
+    # m_max / f_max [m] of the ellipsoid that turns as the object does when it hardly turns, in the
+    # middle between the directions of its motion.
     c: Quantity
-    mu_c: Quantity
-    theta: float
-    covariance: Array
-    l: float
-    radius: float
-    surprise: float
-    contradiction: str
+    mu_c: Quantity  # friction between finger and object; its mean is that of the friction angle
+    theta: float  # angle of the edge without the readings' noise [rad]; NaN before the first one
+    covariance: Array  # of theta, d, l and the radius of the finger's disk [rad, m, m, m], (4, 4)
+    l: float  # distance from the edge to the centre of mass [m]
+    radius: float  # of the finger's disk [m]
+    surprise: float  # mean square of the last readings' normalised errors, 1 on average
+    contradiction: str  # why no number is to be believed, all being the prior's then; or empty
 
 
 class ContactEstimator:
-    """Follows theta, and with it everything that it depends on.
+    """Follows theta, and with it everything that it depends on (Section III, and past it).
 
     Every push is informative, not only those of a translating object: omega depends on d, c, mu_c
     and l. A bank of Gaussian hypotheses (`hypotheses`) gives the mean and the 95 % interval; cells
@@ -95,61 +63,19 @@ class ContactEstimator:
     for one of them. The 95 % interval is therefore the hull of those for no friction, for some
     friction and for a contact that always sticks, without the kinds that the data exclude.
 
-    Deterministic: the same pushes give the same estimates.
-
-    Parameters
-    ----------
-    prior : Prior
-        What is known before.
-    noise : float
-        Standard deviation of the readings of theta [rad], positive.
-    radius : float, optional
-        Effective radius of the finger's disk [m].
-    radius_sigma : float, optional
-        Its standard deviation [m]; 0 if it is known. What is guaranteed holds within three.
-    outlier : float, optional
-        Probability that a reading is wrong altogether.
-    liberties : Liberties, optional
-        How far the object may be from one with an ellipsoidal limit surface, for the mean and the
-        95 % interval; by default what `Liberties` has, more for a slender object.
-    bounds : ModelBounds, optional
-        The same for what is guaranteed; by default noise up to five standard deviations and the
-        bounds on the model that `ModelBounds` has, wider for a slender object.
-    disk : bool, optional
-        Whether the object is a disk about its centre of mass: d of the prior is 0 then, its l the
-        disk's radius, and nothing but the prior is guaranteed.
-
-    Attributes
-    ----------
-    log_evidence : float
-        Logarithm of the probability density of all readings but the first: what tells which of
-        several priors, for instance edges of an outline, fits best.
-
-    Raises
-    ------
-    ValueError
-        If a number is out of its range.
-
-    References
-    ----------
-    K. M. Lynch, H. Maekawa and K. Tanie, "Manipulation and active sensing by pushing using
-    tactile feedback", IROS 1992, Section III.
-    I. Arasaratnam and S. Haykin, "Cubature Kalman filters", IEEE Transactions on Automatic Control
-    54 (6), 2009.
-    E. S. Page, "Continuous inspection schemes", Biometrika 41, 1954: the test for contradictions.
+    `log_evidence` is the logarithm of the probability density of all readings but the first: it
+    shows which of several priors, for instance edges of an outline, fits best.
     """
 
     def __init__(
         self,
         prior: Prior,
-        noise: float,
+        noise: float,  # standard deviation of the readings [rad]
         *,
-        radius: float = FINGER_RADIUS,
-        radius_sigma: float = 0.0,
-        outlier: float = 0.001,
-        liberties: Liberties | None = None,
-        bounds: ModelBounds | None = None,
-        disk: bool = False,
+        radius: float = FINGER_RADIUS,  # of the finger's disk [m]
+        radius_sigma: float = 0.0,  # its standard deviation [m]: the bounds hold within three
+        outlier: float = 0.001,  # probability that a reading is wrong altogether
+        disk: bool = False,  # whether l is the radius of a disk about its centre of mass
     ) -> None:
         for name, value in (('noise', noise), ('radius', radius)):
             if not (math.isfinite(value) and value > 0.0):
@@ -167,11 +93,10 @@ class ContactEstimator:
         self.radius = radius
         self.radius_sigma = radius_sigma
         self.outlier = outlier
-        self.liberties = liberties or _liberties(prior.slenderness)
-        self.bounds = bounds or _bounds(prior.slenderness, noise)
+        self.bounds = _bounds(prior.slenderness, noise)
         self.disk = disk
-        radii = radius, radius_sigma
-        self._bank = Bank(prior, radii, self.liberties, noise, outlier, disk)
+        liberties = _liberties(prior.slenderness)
+        self._bank = Bank(prior, (radius, radius_sigma), liberties, noise, outlier, disk)
         self.reset()
         mean, covariance = self._bank.moments()
         covariance[THETA] = covariance[:, THETA] = 0.0
@@ -186,27 +111,7 @@ class ContactEstimator:
         self.log_evidence = 0.0
 
     def push(self, theta: float, v_x: float, v_y: float, duration: float) -> Estimate:
-        """Take a push and the reading at its end.
-
-        Parameters
-        ----------
-        theta : float
-            Reading of the edge's angle [rad]; NaN without one.
-        v_x, v_y : float
-            Mean velocity of the finger relative to the support since the last call [m/s].
-        duration : float
-            Time since the last call [s]; 0 for a reading without a push, as the first one is.
-
-        Returns
-        -------
-        Estimate
-            What is known now.
-
-        Raises
-        ------
-        ValueError
-            If a velocity is not finite, or the duration negative or not finite.
-        """
+        """Take a push and the reading at its end, as `Estimator.push` does."""
         if not (math.isfinite(v_x) and math.isfinite(v_y)):
             raise ValueError(f'v_x, v_y: expected finite velocities [m/s], got {v_x}, {v_y}')
         if not (math.isfinite(duration) and duration >= 0.0):
@@ -234,13 +139,7 @@ class ContactEstimator:
         return self._guaranteed is not None and self._guaranteed.empty
 
     def estimate(self) -> Estimate:
-        """Return what is known.
-
-        Returns
-        -------
-        Estimate
-            The estimate; before any data and after a contradiction, the prior.
-        """
+        """Return what is known; before any data and after a contradiction, the prior."""
         if self._watch is None:
             return self._before
         if self.contradiction:

@@ -74,31 +74,15 @@ class _Line:
 
 
 class Watch:
-    """Says why the readings of one push contradict the model.
+    """Finds out why the readings of one push contradict the model.
 
-    Parameters
-    ----------
-    noise : float
-        Standard deviation of the readings [rad].
-    outlier : float
-        Probability that a reading is wrong altogether.
-    l : float
-        Distance from the edge to the centre of mass [m], which sets how fast objects turn.
-    theta : float
-        The first reading [rad].
-
-    Attributes
-    ----------
-    outlier : float
-        A reading whose log density is no greater is rather an outlier than not.
-    surprise : float
-        Mean square of the last readings' errors in units of what was expected, 1 on average.
-    reason : str
-        Why no number is to be believed; empty if model and readings agree. It stays.
+    A reading whose log density is no greater than `outlier` is rather an outlier than not.
+    `surprise` is the mean square of the last readings' normalised errors, 1 on average. `reason`
+    says why no number is to be believed, '' if model and readings agree; it stays.
     """
 
     def __init__(self, noise: float, outlier: float, l: float, theta: float) -> None:
-        self._noise = noise
+        self._noise = noise  # standard deviation of the readings [rad]
         # No object turns by more than 1/(2 l) a metre, eq. (11).
         self._fastest = 0.5 / l
         change = self._fastest / math.sqrt(CHANGE * l)
@@ -116,10 +100,9 @@ class Watch:
     def read(self, theta: float, way: float, error: float, log_density: float, off: float) -> None:
         """Compare a reading with what the model says.
 
-        `way` is how far the finger has pushed since the last reading [m], `error` by how much the
-        reading differs from the expected one in standard deviations, `log_density` the logarithm
-        of the probability density that the model gave to it [1/rad], and `off` the share of the
-        hypotheses whose contact has run off the edge.
+        `way` is how far the finger has pushed since the last reading [m], `error` the reading's
+        error in standard deviations, `log_density` the logarithm of its probability density under
+        the model [1/rad], and `off` the share of the hypotheses that have run off the edge.
         """
         self._since.append(theta)
         self._gone += way

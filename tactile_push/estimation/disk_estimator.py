@@ -8,17 +8,15 @@ import numpy as np
 
 from tactile_push.estimation.contact_estimator import ContactEstimator
 from tactile_push.estimation.contenders import Contenders
-from tactile_push.estimation.object_estimator import ObjectEstimate
+from tactile_push.estimation.object_estimator import Estimator, ObjectEstimate
 from tactile_push.estimation.pose import object_pose
 from tactile_push.estimation.prior import Prior
 from tactile_push.paper import FINGER_RADIUS
 
-ANY_ORIENTATION = (
-    2.0 * math.pi
-) ** 2 / 12.0  # variance of the disk's angle, which nothing shows [rad^2]
+ANY_ORIENTATION = math.tau**2 / 12.0  # variance of the disk's angle, which nothing shows [rad^2]
 
 
-class DiskEstimator:
+class DiskEstimator(Estimator):
     """Follows the contact with a disk about its centre of mass.
 
     The tangent at the contact is the edge, so d is 0. theta tells where the disk is; how theta
@@ -69,44 +67,15 @@ class DiskEstimator:
             outlier=outlier,
             disk=True,
         )
-        self._contenders = Contenders([estimator], np.ones(1), noise)
-
-    def reset(self) -> None:
-        """Forget everything, as when the finger has lost the object."""
-        self._contenders.reset()
-
-    def push(self, theta: float, v_x: float, v_y: float, duration: float) -> ObjectEstimate:
-        """Take a push and the reading at its end.
-
-        Parameters
-        ----------
-        theta : float
-            Reading of the tangent's angle [rad]; NaN without one.
-        v_x, v_y : float
-            Mean velocity of the finger relative to the support since the last call [m/s].
-        duration : float
-            Time since the last call [s]; 0 for a reading without a push, as the first one is.
-
-        Returns
-        -------
-        ObjectEstimate
-            What is known now, without edges.
-
-        Raises
-        ------
-        ValueError
-            If a velocity is not finite, or the duration negative or not finite.
-        """
-        self._contenders.push(theta, v_x, v_y, duration)
-        return self.estimate()
+        super().__init__(Contenders([estimator], np.ones(1), noise))
 
     def estimate(self) -> ObjectEstimate:
-        """Return what is known.
+        """Return what is known, as in `Estimator`.
 
         Returns
         -------
         ObjectEstimate
-            The estimate; before any data and after a contradiction, what was known before.
+            The estimate.
         """
         (estimate,) = self._contenders.estimates
         pose, covariance = object_pose(estimate)
@@ -114,17 +83,6 @@ class DiskEstimator:
         pose[2] = 0.0
         covariance[2, :] = covariance[:, 2] = 0.0
         covariance[2, 2] = ANY_ORIENTATION
-        return ObjectEstimate(
-            (),
-            np.zeros(0),
-            (),
-            -1,
-            estimate.d,
-            estimate.c,
-            estimate.mu_c,
-            estimate.theta,
-            estimate.surprise,
-            self._contenders.contradiction,
-            pose,
-            covariance,
-        )
+        known = estimate.d, estimate.c, estimate.mu_c, estimate.theta, estimate.surprise
+        contradiction = self._contenders.contradiction
+        return ObjectEstimate((), np.zeros(0), (), -1, *known, contradiction, pose, covariance)

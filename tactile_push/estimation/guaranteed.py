@@ -33,26 +33,11 @@ CELLS = 256
 
 @dataclass(frozen=True)
 class ModelBounds:
-    """How far sensor and object may be from the model, for what is guaranteed.
+    """How far sensor and object may be from the model, for what is guaranteed."""
 
-    Parameters
-    ----------
-    noise : float
-        Largest error of a reading [rad].
-    turn : float, optional
-        How far omega may be from the ellipsoid's, as a share of it.
-    cone : float, optional
-        How far an edge of the motion cone may be from the ellipsoid's [rad].
-
-    Raises
-    ------
-    ValueError
-        If a bound is negative or not finite, or `turn` is not below 1.
-    """
-
-    noise: float
-    turn: float = 0.3
-    cone: float = math.radians(15.0)
+    noise: float  # largest error of a reading [rad]
+    turn: float = 0.3  # how far omega may be from the ellipsoid's, as a share of it
+    cone: float = math.radians(15.0)  # how far an edge of the motion cone may be from it [rad]
 
     def __post_init__(self) -> None:
         for name in ('noise', 'turn', 'cone'):
@@ -64,22 +49,14 @@ class ModelBounds:
 
 
 class GuaranteedSet:
-    """All that cannot be excluded of one object, as cells.
-
-    Parameters
-    ----------
-    prior : Prior
-        What is known before any data.
-    bounds : ModelBounds
-        How far sensor and object may be from the model.
-    radius : tuple of float
-        Least and most radius of the finger's disk [m].
-    theta : float
-        The first reading [rad].
-    """
+    """All that cannot be excluded of one object, as cells."""
 
     def __init__(
-        self, prior: Prior, bounds: ModelBounds, radius: tuple[float, float], theta: float
+        self,
+        prior: Prior,
+        bounds: ModelBounds,
+        radius: tuple[float, float],  # least and most radius of the finger's disk [m]
+        theta: float,  # the first reading [rad]
     ) -> None:
         self._prior = prior
         self._bounds = bounds
@@ -101,13 +78,7 @@ class GuaranteedSet:
         return self._count == 0
 
     def ranges(self) -> Array:
-        """Return the bounds.
-
-        Returns
-        -------
-        ndarray, shape (3, 2)
-            Least and most d [m], c [m] and mu_c; those of the prior if everything is excluded.
-        """
+        """Return least and most d [m], c [m], mu_c; the prior's if all is excluded."""
         prior = self._prior
         if self.empty:
             return np.array([prior.d, prior.c, prior.mu_c])
@@ -126,38 +97,19 @@ class GuaranteedSet:
         )
 
     def push(self, v_x: float, v_y: float, duration: float) -> None:
-        """Take a push.
-
-        Parameters
-        ----------
-        v_x, v_y : float
-            Velocity of the finger relative to the support [m/s].
-        duration : float
-            How long [s].
-        """
+        """Move the cells on by a push [m/s, m/s, s]."""
         prior, model = self._prior, self._bounds
         slack = 3.0 * prior.l_sigma
-        bounds = Bounds(
-            Interval(*prior.d),
-            Interval(prior.l - slack, prior.l + slack),
-            Interval(*self._radius),
-            self._theta,
-            model.turn,
-            model.cone,
-        )
+        l = Interval(prior.l - slack, prior.l + slack)
+        d, r = Interval(*prior.d), Interval(*self._radius)
+        bounds = Bounds(d, l, r, self._theta, model.turn, model.cone)
         parts = max(1, math.ceil(math.hypot(v_x, v_y) * duration / LONGEST_PART))
         push = Push(v_x, v_y, duration / parts)
         for _ in range(parts):
             self._count = push_cells(self._cells[: self._count], push, bounds)
 
     def read(self, theta: float) -> None:
-        """Take a reading.
-
-        Parameters
-        ----------
-        theta : float
-            The reading [rad].
-        """
+        """Cut off what a reading of theta [rad] excludes."""
         noise = self._bounds.noise
         self._count = cut_cells(self._cells[: self._count], theta - noise, theta + noise)
         self._split()

@@ -15,13 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tactile_push.estimation.resistance import (
-    LEAST_COSINE,
-    Pressure,
-    Push,
-    cone_of_angle,
-    settled,
-)
+from tactile_push.estimation.resistance import LEAST_COSINE, Pressure, Push, cone_of_angle, settled
 from tactile_push.mechanics.compiled import Array, compiled, equation
 from tactile_push.mechanics.motion import pushed_twist
 
@@ -71,33 +65,10 @@ def advance(
     push: Push,
     curved: bool,
 ) -> tuple[float, float, float]:
-    """Push for a short while, by the midpoint rule.
+    """Push for a short while, by the midpoint rule: return theta, d and how far the contact slips.
 
-    Parameters
-    ----------
-    theta : float
-        Angle of the edge, or of the tangent [rad].
-    d : float
-        Contact along the edge [m].
-    alpha : float
-        Half angle of the friction cone [rad]; what is beyond 0 and pi/2 counts as the bound.
-    l : float
-        Distance from the edge to the centre of mass [m]; the radius of a curved object.
-    r : float
-        Radius of the finger's disk [m].
-    pressure : Pressure
-        How the object resists turning.
-    push : Push
-        The push.
-    curved : bool
-        Whether the object is a disk about its centre of mass.
-
-    Returns
-    -------
-    theta, d : float
-        Angle and contact at the end [rad, m].
-    slip : float
-        How far the contact has slipped [m].
+    A friction angle beyond 0 or pi/2 counts as the bound. `l` is the radius of a `curved` object, a
+    disk about its centre of mass.
     """
     # On a disk d stays, and theta changes with the place of the tangent, too.
     along, around = (0.0, 1.0 / (l + r)) if curved else (1.0, 0.0)
@@ -275,25 +246,10 @@ def predict(
     errors: ModelErrors,
     curved: bool,
 ) -> None:
-    """Move all hypotheses on by a short push.
+    """Move all hypotheses on by a short push, longer than 0 s: means, covariances and motions.
 
-    Parameters
-    ----------
-    means : ndarray, shape (H, 8)
-        Means, changed.
-    covariances : ndarray, shape (H, 8, 8)
-        Covariances, changed.
-    motions : ndarray, shape (H, 2)
-        How the object moved in the last pushes, changed: direction of the contact's velocity in
-        the frame of the edge [rad] and turn per l of its way [rad]; NaN before the first push.
-    moments : ndarray, shape (3,)
-        Second moments of the outline's area, see `Pressure`.
-    push : Push
-        The push, longer than 0 s.
-    errors : ModelErrors
-        How far the object may be from the model.
-    curved : bool
-        Whether the object is a disk about its centre of mass.
+    `motions` says how the object moved in the last pushes: direction of the contact's velocity in
+    the frame of the edge [rad] and turn per l of its way [rad]; NaN before the first push.
     """
     root = np.zeros((UNKNOWNS, UNKNOWNS))
     ends = np.empty((2 * UNKNOWNS, 2))
@@ -321,30 +277,11 @@ def correct(
     variance: float,
     outlier: float,
 ) -> float:
-    """Correct all hypotheses by a reading of theta.
+    """Correct all hypotheses by a reading of theta [rad] whose noise has the `variance` [rad^2].
 
-    With a small probability a reading is an outlier, anywhere in the half turn that the sensor
-    sees. A hypothesis under which this is likelier keeps its mean.
-
-    Parameters
-    ----------
-    means : ndarray, shape (H, 8)
-        Means, changed.
-    covariances : ndarray, shape (H, 8, 8)
-        Covariances, changed.
-    log_weights : ndarray, shape (H,)
-        Logarithms of the weights, changed; their sum of exponentials becomes 1.
-    theta : float
-        The reading [rad].
-    variance : float
-        Variance of its noise [rad^2].
-    outlier : float
-        Probability of an outlier.
-
-    Returns
-    -------
-    float
-        Probability density of the reading, all hypotheses taken together [1/rad].
+    With the probability `outlier` a reading is an outlier, anywhere in the half turn that the
+    sensor sees. A hypothesis under which this is likelier keeps its mean. Return the probability
+    density of the reading under all hypotheses together [1/rad]; the weights then add up to 1.
     """
     anywhere = outlier / math.pi
     gains = np.empty(UNKNOWNS)

@@ -14,22 +14,7 @@ FINE = 1e-6  # last bracket, of the first one: where the mixture has a step
 
 @compiled
 def quantile(weights: Array, means: Array, variances: Array, share: float) -> float:
-    """Find the value below which a share of a mixture of Gaussians lies.
-
-    Parameters
-    ----------
-    weights : ndarray, shape (H,)
-        Weights, whose sum is positive.
-    means, variances : ndarray, shape (H,)
-        The Gaussians, whose variances may be 0.
-    share : float
-        The share, between 0 and 1.
-
-    Returns
-    -------
-    float
-        The value, in the unit of the means.
-    """
+    """Find the value below which a share of a mixture of Gaussians lies; variances may be 0."""
     total, mean, square = 0.0, 0.0, 0.0
     for h in range(len(weights)):
         total += weights[h]

@@ -9,11 +9,7 @@ from itertools import compress
 
 import numpy as np
 
-from tactile_push.estimation.contact_estimator import (
-    ContactEstimator,
-    Estimate,
-    Quantity,
-)
+from tactile_push.estimation.contact_estimator import ContactEstimator, Estimate, Quantity
 from tactile_push.estimation.contenders import Contenders
 from tactile_push.estimation.edges import Edge
 from tactile_push.estimation.pose import object_pose
@@ -71,7 +67,53 @@ class ObjectEstimate:
     covariance: Array
 
 
-class ObjectEstimator:
+class Estimator:
+    """What the estimators of an edge and of a disk have in common."""
+
+    def __init__(self, contenders: Contenders) -> None:
+        self._contenders = contenders
+
+    def reset(self) -> None:
+        """Forget everything, as when the finger has lost the object."""
+        self._contenders.reset()
+
+    def push(self, theta: float, v_x: float, v_y: float, duration: float) -> ObjectEstimate:
+        """Take a push and the reading at its end.
+
+        Parameters
+        ----------
+        theta : float
+            Reading of the pushed edge's or tangent's angle [rad]; NaN without one.
+        v_x, v_y : float
+            Mean velocity of the finger relative to the support since the last call [m/s].
+        duration : float
+            Time since the last call [s]; 0 for a reading without a push, as the first one is.
+
+        Returns
+        -------
+        ObjectEstimate
+            What is known now.
+
+        Raises
+        ------
+        ValueError
+            If a velocity is not finite, or the duration negative or not finite.
+        """
+        self._contenders.push(theta, v_x, v_y, duration)
+        return self.estimate()
+
+    def estimate(self) -> ObjectEstimate:
+        """Return what is known; before any data and after a contradiction, what was known before.
+
+        Returns
+        -------
+        ObjectEstimate
+            The estimate; a disk has no edges.
+        """
+        raise NotImplementedError
+
+
+class ObjectEstimator(Estimator):
     """Follows the contact under every edge that may be pushed, and weighs the edges.
 
     Before any data the finger is equally likely anywhere on the outline. Edges that lie alike to
@@ -131,57 +173,25 @@ class ObjectEstimator:
         together = np.bincount(place_of, lengths)
         self._place_of = place_of
         self._shares = lengths / together[place_of]
-        self._contenders = Contenders(
-            [
-                ContactEstimator(
-                    Prior(place.d, place.l, l_share * place.l, c, mu_c, place.moments),
-                    noise,
-                    radius=radius,
-                    radius_sigma=radius_share * radius,
-                    outlier=outlier,
-                )
-                for place in places
-            ],
-            together / together.sum(),
-            noise,
-        )
-
-    def reset(self) -> None:
-        """Forget everything, as when the finger has lost the object."""
-        self._contenders.reset()
-
-    def push(self, theta: float, v_x: float, v_y: float, duration: float) -> ObjectEstimate:
-        """Take a push and the reading at its end.
-
-        Parameters
-        ----------
-        theta : float
-            Reading of the edge's angle [rad]; NaN without one.
-        v_x, v_y : float
-            Mean velocity of the finger relative to the support since the last call [m/s].
-        duration : float
-            Time since the last call [s]; 0 for a reading without a push, as the first one is.
-
-        Returns
-        -------
-        ObjectEstimate
-            What is known now.
-
-        Raises
-        ------
-        ValueError
-            If a velocity is not finite, or the duration negative or not finite.
-        """
-        self._contenders.push(theta, v_x, v_y, duration)
-        return self.estimate()
+        estimators = [
+            ContactEstimator(
+                Prior(place.d, place.l, l_share * place.l, c, mu_c, place.moments),
+                noise,
+                radius=radius,
+                radius_sigma=radius_share * radius,
+                outlier=outlier,
+            )
+            for place in places
+        ]
+        super().__init__(Contenders(estimators, together / together.sum(), noise))
 
     def estimate(self) -> ObjectEstimate:
-        """Return what is known.
+        """Return what is known, as in `Estimator`.
 
         Returns
         -------
         ObjectEstimate
-            The estimate; before any data and after a contradiction, what was known before.
+            The estimate.
         """
         found, possible = self._contenders.estimates, self._contenders.possible
         estimates = tuple(found[i] for i in self._place_of)
@@ -201,20 +211,9 @@ class ObjectEstimator:
             for name in ('d', 'c', 'mu_c')
         )
         pose, covariance = self._pose(estimates, weights, best)
-        return ObjectEstimate(
-            self.edges,
-            weights,
-            estimates,
-            best,
-            d,
-            c,
-            mu_c,
-            estimates[best].theta,
-            estimates[best].surprise,
-            self._contenders.contradiction,
-            pose,
-            covariance,
-        )
+        theta, surprise = estimates[best].theta, estimates[best].surprise
+        known = d, c, mu_c, theta, surprise, self._contenders.contradiction
+        return ObjectEstimate(self.edges, weights, estimates, best, *known, pose, covariance)
 
     def _pose(
         self, estimates: tuple[Estimate, ...], weights: Array, best: int

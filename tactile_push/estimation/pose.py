@@ -12,21 +12,10 @@ from tactile_push.mechanics.compiled import Array
 
 
 def object_pose(estimate: Estimate) -> tuple[Array, Array]:
-    """Compute the pose of the centre of mass in the frame of the finger's disk.
+    """Compute the pose of the centre of mass in the frame of the finger's disk, and its covariance.
 
-    The sensed theta and the estimated d determine it completely; to first order in their errors.
-
-    Parameters
-    ----------
-    estimate : Estimate
-        What is known of theta, d, l and r, theta past the first reading.
-
-    Returns
-    -------
-    pose : ndarray, shape (3,)
-        x, y [m] and the angle of the pushed edge [rad].
-    covariance : ndarray, shape (3, 3)
-        Their covariance.
+    The pose is x, y [m] and the angle of the pushed edge [rad]: the sensed theta and the estimated
+    d determine it completely. The covariance holds to first order in their errors.
     """
     theta, d = estimate.theta, estimate.d.mean
     x, y = centre_on_ray(theta, d, estimate.l, estimate.radius)

@@ -54,22 +54,12 @@ class Ray:
 
 @dataclass(frozen=True, eq=False)
 class Intersection:
-    """Where rays of pushing meet.
+    """Where rays of pushing meet."""
 
-    Parameters
-    ----------
-    x, y : float
-        Centre of mass in the frame of the rays [m].
-    covariance : ndarray, shape (2, 2)
-        Covariance of (x, y) [m^2].
-    chi_squared : float
-        Sum of the squared normalised distances from the rays: N - 2 on average.
-    """
-
-    x: float
+    x: float  # centre of mass in the frame of the rays [m]
     y: float
-    covariance: Array
-    chi_squared: float
+    covariance: Array  # of (x, y) [m^2], shape (2, 2)
+    chi_squared: float  # sum of the squared normalised distances from the rays: N - 2 on average
 
 
 class ParallelRaysError(ValueError):

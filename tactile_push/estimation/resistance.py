@@ -22,25 +22,15 @@ LEAST = 0.1  # c^2 does not shrink to less than this share of it
 
 
 class Pressure(NamedTuple):
-    """How the pressure under an object resists its turning.
+    """How the pressure under an object resists its turning."""
 
-    Parameters
-    ----------
-    c_squared : float
-        c^2 of a load without preferred direction while the object hardly turns [m^2].
-    growth : float
-        By how much c^2 is greater when the object spins than on average over the directions, as a
-        share of it.
-    shape : float
-        Share of the load that is spread as the outline's area is.
-    moments : ndarray, shape (3,)
-        Second moments of the area along the tangent, mixed and along the normal, divided by the
-        root of their determinant.
-    """
-
-    c_squared: float
+    c_squared: float  # of a load without preferred direction while the object hardly turns [m^2]
+    # By how much c^2 is greater when the object spins than on average over the directions, as a
+    # share of it.
     growth: float
-    shape: float
+    shape: float  # share of the load that is spread as the outline's area is
+    # Second moments of the area along the tangent, mixed and along the normal, divided by the root
+    # of their determinant, shape (3,).
     moments: Array
 
 
@@ -89,32 +79,11 @@ def settled(
     sin_alpha: float,
     pressure: Pressure,
 ) -> tuple[float, float, float]:
-    """Find the c^2 with which a push moves the object so that this is its c^2.
+    """Find the c^2 [m^2] with which a push moves the object so that this is its c^2.
 
     omega = A/(c^2 + B) with A and B of (11) for a sticking contact, and of (13) and (15) for one
-    that slips, where the centre of mass moves as the force acts.
-
-    Parameters
-    ----------
-    v_t, v_n : float
-        Velocity of the finger along tangent and normal [m/s].
-    d : float
-        Contact along the edge [m].
-    l : float
-        Distance from the edge to the centre of mass [m].
-    cos_alpha, sin_alpha : float
-        The friction cone.
-    pressure : Pressure
-        How the object resists turning.
-
-    Returns
-    -------
-    c_squared : float
-        c^2 [m^2].
-    omega : float
-        Rate of turning [rad/s].
-    v_slip : float
-        Velocity of slip [m/s], eq. (14).
+    that slips, where the centre of mass moves as the force acts. Arguments are those of
+    `pushed_twist`. Return c^2, omega [rad/s] and the velocity of slip (14) [m/s], too.
     """
     now = resistance(v_t, v_n, 0.0, pressure)
     _, _, omega, v_slip, mode = pushed_twist(v_t, v_n, d, -l, cos_alpha, sin_alpha, math.sqrt(now))

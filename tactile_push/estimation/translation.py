@@ -70,11 +70,6 @@ def bounds_of_translation(
     ------
     ValueError
         If a range is none, or the finger may not move into the object.
-
-    References
-    ----------
-    K. M. Lynch, H. Maekawa and K. Tanie, "Manipulation and active sensing by pushing using
-    tactile feedback", IROS 1992, Section III.
     """
     for name, (least, most) in (('theta', theta), ('phi', phi)):
         if not least <= most:

@@ -4,9 +4,7 @@
 
 from tactile_push.mechanics.body import Body, Finger, Pose
 from tactile_push.mechanics.contact import clearance, contact, tangent_angle
-from tactile_push.mechanics.exact_motion import (
-    exact_pushed_twist,
-)
+from tactile_push.mechanics.exact_motion import exact_pushed_twist
 from tactile_push.mechanics.friction import (
     check_friction,
     friction_cone,

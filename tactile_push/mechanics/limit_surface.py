@@ -181,9 +181,7 @@ class ExactLimitSurface:
         speed = np.hypot(u_x, u_y)
         moving = speed > STANDSTILL * (math.hypot(v_x, v_y) + self.support.c * abs(omega))
         friction = np.divide(load, speed, out=np.zeros_like(speed), where=moving)
-        return np.array(
-            [friction @ u_x, friction @ u_y, friction @ (x * u_y - y * u_x)],
-        )
+        return np.array([friction @ u_x, friction @ u_y, friction @ (x * u_y - y * u_x)])
 
     def twist(self, wrench: npt.ArrayLike) -> Array:
         """Compute the direction of motion under a wrench.

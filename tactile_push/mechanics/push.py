@@ -93,13 +93,7 @@ def push_rates(
 
 @compiled
 def push_body(
-    angle: float,
-    sigma: float,
-    v_x: float,
-    v_y: float,
-    duration: float,
-    body: Body,
-    finger: Finger,
+    angle: float, sigma: float, v_x: float, v_y: float, duration: float, body: Body, finger: Finger
 ) -> tuple[float, float, float, int]:
     """Push an object that the finger touches, straight on for a while, as `push` does."""
     path = body.path

@@ -210,14 +210,7 @@ def run(
         if pushes is None:
             if k > 0:
                 phi = _push_angle(
-                    phi,
-                    theta,
-                    before,
-                    law.kp,
-                    law.kd,
-                    law.theta_desired,
-                    law.phi_min,
-                    law.phi_max,
+                    phi, theta, before, law.kp, law.kd, law.theta_desired, law.phi_min, law.phi_max
                 )
         else:
             phi = pushes[k]

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from tactile_push.control import PushLaw, finger_velocity
-from tactile_push.estimation import ContactEstimator, Prior
+from tactile_push.estimation.contact_estimator import ContactEstimator
+from tactile_push.estimation.prior import Prior
 from tactile_push.mechanics import Outline, Slider, Support
 from tactile_push.simulation import Faults, Rig, Servo, paper_block
 from tactile_push.simulation.rig import RigConfig

@@ -8,7 +8,9 @@ import pytest
 
 from support.simulated_pushes import BELT, NOISE, PERIOD
 from tactile_push.control import PushLaw, finger_velocity
-from tactile_push.estimation import ContactEstimator, DiskEstimator, Prior
+from tactile_push.estimation import DiskEstimator
+from tactile_push.estimation.contact_estimator import ContactEstimator
+from tactile_push.estimation.prior import Prior
 from tactile_push.mechanics import Outline, Slider
 from tactile_push.simulation import Rig, RigConfig
 

@@ -6,7 +6,8 @@ import math
 import numpy as np
 import pytest
 
-from tactile_push.estimation import Prior, edges_of
+from tactile_push.estimation import edges_of
+from tactile_push.estimation.prior import Prior
 from tactile_push.mechanics import Outline
 from tactile_push.mechanics.contact import piece_at
 

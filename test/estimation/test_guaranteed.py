@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from support.pushed_block import HALF, OUTLINE, RADIUS, pushed
-from tactile_push.estimation import GuaranteedSet, ModelBounds, Prior
+from tactile_push.estimation.guaranteed import GuaranteedSet, ModelBounds
+from tactile_push.estimation.prior import Prior
 from tactile_push.mechanics import Slider, Support
 
 

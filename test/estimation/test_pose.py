@@ -6,7 +6,8 @@ import math
 import numpy as np
 import pytest
 
-from tactile_push.estimation import Estimate, Quantity, object_pose
+from tactile_push.estimation.contact_estimator import Estimate, Quantity
+from tactile_push.estimation.pose import object_pose
 from tactile_push.mechanics.contact import reach
 
 RADIUS = 0.0135
