@@ -4,7 +4,6 @@
 
 from tactile_push.control.law import AHEAD, PushLaw, finger_velocity, motion_angle, push_angle
 from tactile_push.control.limits import Limits, plausible
-from tactile_push.control.newest import Newest
 from tactile_push.control.push_control import PushControl, Tick
 from tactile_push.control.settling import settle_step
 from tactile_push.control.states import (
@@ -44,7 +43,6 @@ __all__ = [
     'WAITING',
     'WORKSPACE_LIMIT',
     'Limits',
-    'Newest',
     'PushControl',
     'PushLaw',
     'Tick',

@@ -6,25 +6,17 @@ import math
 
 
 class Newest:
-    """Keeps the newest value, by its stamp, and gives every value once.
+    """Keeps the newest value, by its stamp, and reports every value once.
 
     A value from the future is as useless as an old one, because somebody's clock is wrong. It is
     ignored and does not keep later values from counting.
-
-    Attributes
-    ----------
-    value : float
-        Newest value that was believed; NaN before the first one.
-    stamp : float
-        Its stamp [s]; minus infinity before the first one.
-    since : float
-        From when on it ages [s]: its stamp or, if that was ahead, when it was looked at. A clock
-        that is ahead must not make a value last longer.
     """
 
     def __init__(self) -> None:
-        self.value = math.nan
-        self.stamp = -math.inf
+        self.value = math.nan  # newest value that was believed
+        self.stamp = -math.inf  # its stamp [s]
+        # From when on it ages [s]: its stamp or, if that was ahead, when it was looked at. A clock
+        # that is ahead must not make a value last longer.
         self.since = -math.inf
         self._arrived: tuple[float, float] | None = None
 
@@ -39,33 +31,12 @@ class Newest:
         return self.stamp if self._arrived is None else self._arrived[1]
 
     def take(self, value: float, stamp: float) -> None:
-        """Take a value as it arrives.
-
-        Parameters
-        ----------
-        value : float
-            The value.
-        stamp : float
-            When it was measured [s]. One that is not newer than the newest is ignored.
-        """
+        """Take a value as it arrives; ignore a stamp [s] that is not newer than the newest."""
         if math.isfinite(stamp) and stamp > self.newest:
             self._arrived = value, stamp
 
     def fresh(self, now: float, timeout: float) -> bool:
-        """Return whether a value has arrived since the last call that is not older than a timeout.
-
-        Parameters
-        ----------
-        now : float
-            Present time [s].
-        timeout : float
-            Largest age, and largest lead [s].
-
-        Returns
-        -------
-        bool
-            Whether `value` is new.
-        """
+        """Return whether a value has arrived since the last call, within the timeout of now [s]."""
         arrived, self._arrived = self._arrived, None
         if arrived is None or arrived[1] - now > timeout:
             return False

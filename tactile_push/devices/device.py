@@ -15,19 +15,8 @@ import serial
 class Device:
     """An open serial port, pseudo terminal or TCP connection to read from.
 
-    Parameters
-    ----------
-    url : str
-        What `serial.serial_for_url` takes: a path such as /dev/ttyUSB0, socket://host:port, …
-    baud_rate : int
-        Bits per second of a serial line; other devices ignore it.
-
-    Raises
-    ------
-    ValueError
-        If the URL is of no kind that pyserial knows.
-    OSError
-        If the device is not there or refuses.
+    `url` is what `serial.serial_for_url` takes: a path such as /dev/ttyUSB0, socket://host:port, …
+    Raise ValueError for a URL that pyserial does not know, OSError if the device is not there.
     """
 
     LONGEST_WAIT = 0.05  # for bytes [s]
@@ -116,18 +105,7 @@ def _gone(error: Exception) -> OSError:
 
 
 def check_url(url: str) -> None:
-    """Refuse a URL that no device can be opened by, whether it is there or not.
-
-    Parameters
-    ----------
-    url : str
-        What `serial.serial_for_url` takes.
-
-    Raises
-    ------
-    ValueError
-        If the URL is of no kind that pyserial knows.
-    """
+    """Raise ValueError for a URL of no kind that pyserial knows; the device may be absent."""
     if not url:
         raise ValueError("expected a path or a URL of pyserial, got ''")
     try:

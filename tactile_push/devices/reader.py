@@ -35,42 +35,15 @@ class SensorReader:
     It waits between attempts, twice as long each time. Only a fresh reading makes the wait short
     again, so that a peer which accepts and hangs up is not asked ten times a second. A thread of
     its own calls the callables, and never after `stop`.
-
-    Parameters
-    ----------
-    url : str
-        The device, see `Device`.
-    baud_rate : int
-        Bits per second of a serial line.
-    clock : callable
-        Gives the present time, with which readings are stamped [ns].
-    hear : callable
-        Takes the fresh readings that one read of the device completed, oldest first, and the time
-        of that read [ns].
-    change : callable
-        Takes what the problem is when the device has gone, '' when readings come (again).
-
-    Attributes
-    ----------
-    stream : SentenceStream
-        What became of the bytes.
-    bytes_read : int
-        Bytes so far.
-    connections : int
-        Times so far that the device was opened.
-    reconnects : int
-        Times so far that it was opened after it had gone.
-    problem : str
-        Why the device is not there, '' if it is.
     """
 
     def __init__(
         self,
         url: str,
         baud_rate: int,
-        clock: Callable[[], int],
-        hear: Callable[[list[Reading], int], None],
-        change: Callable[[str], None],
+        clock: Callable[[], int],  # returns the present time, with which readings are stamped [ns]
+        hear: Callable[[list[Reading], int], None],  # takes fresh readings, oldest first, and time
+        change: Callable[[str], None],  # takes the problem; '' when readings come (again)
     ) -> None:
         self._url = url
         self._baud_rate = baud_rate
@@ -79,9 +52,9 @@ class SensorReader:
         self._change = change
         self.stream = SentenceStream()
         self.bytes_read = 0
-        self.connections = 0
-        self.reconnects = 0
-        self.problem = ''
+        self.connections = 0  # times that the device was opened
+        self.reconnects = 0  # times that it was opened after it had gone
+        self.problem = ''  # why the device is not there
         self._received = 0
         # Held while the thread does what shows outside: none of that goes on when `stop` returns.
         self._lock = threading.Lock()

@@ -39,6 +39,18 @@ class Liberties:
     scatter: float = 0.013
     skew: float = 0.1
 
+    def __post_init__(self) -> None:
+        for name in ('drift', 'scatter', 'skew'):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0.0):
+                raise ValueError(f'{name}: expected a finite number of 0 or more, got {value}')
+        for name in ('growth', 'shape'):
+            mean, deviation = getattr(self, name)
+            if not (math.isfinite(mean) and math.isfinite(deviation) and deviation >= 0.0):
+                raise ValueError(
+                    f'{name}: expected a mean and a standard deviation, got {mean}, {deviation}'
+                )
+
 
 class Bank:
     """A bank of hypotheses about one object; a share `off` of them has run off the edge."""

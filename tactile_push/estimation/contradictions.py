@@ -8,6 +8,8 @@ much the logarithm of its probability density is above the model's, and starts a
 falls below 0, so it is about the last readings however long the push has been. As long as the
 model is right, a sum rises above h less than once in exp(h) readings. Sums leak, so that a tiny
 advantage over very long times says nothing.
+
+The test is that of E. S. Page, "Continuous inspection schemes", Biometrika 41, 100-115, 1954.
 """
 
 import math

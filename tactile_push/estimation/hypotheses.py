@@ -8,6 +8,9 @@ exact to the third order), so sticking, slipping and the passage between them ne
 A reading of theta corrects the Gaussian as in a Kalman filter, and its likelihood changes the
 weight. Narrow hypotheses side by side stand for any prior; where data have made them narrower than
 their distance, one is enough.
+
+The cubature rule is that of I. Arasaratnam and S. Haykin, "Cubature Kalman filters", IEEE
+Transactions on Automatic Control 54 (6), 1254-1269, 2009.
 """
 
 import math

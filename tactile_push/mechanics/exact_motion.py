@@ -212,8 +212,8 @@ def exact_pushed_twist(
 
     References
     ----------
-    S. Goyal, A. Ruina and J. Papadopoulos, "Planar sliding with dry friction. Part 1. Limit surface
-    and moment function", Wear 143, 1991.
+    S. Goyal, A. Ruina and J. Papadopoulos, "Planar sliding with dry friction Part 1. Limit surface
+    and moment function", Wear 143, 307-330, 1991.
     """
     speed = math.hypot(v_px, v_py)
     if speed <= STANDS:

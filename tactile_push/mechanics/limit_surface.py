@@ -41,7 +41,7 @@ class EllipsoidalLimitSurface:
     K. M. Lynch, H. Maekawa and K. Tanie, "Manipulation and active sensing by pushing using
     tactile feedback", IROS 1992, eqs. (1) to (5).
     R. D. Howe and M. R. Cutkosky, "Practical force-motion models for sliding manipulation",
-    International Journal of Robotics Research 15 (6), 1996.
+    International Journal of Robotics Research 15 (6), 557-572, 1996.
     """
 
     f_max: float
@@ -133,8 +133,8 @@ class ExactLimitSurface:
 
     References
     ----------
-    S. Goyal, A. Ruina and J. Papadopoulos, "Planar sliding with dry friction. Part 1. Limit surface
-    and moment function", Wear 143, 1991.
+    S. Goyal, A. Ruina and J. Papadopoulos, "Planar sliding with dry friction Part 1. Limit surface
+    and moment function", Wear 143, 307-330, 1991.
     """
 
     support: Support

@@ -2,28 +2,25 @@
 # SPDX-License-Identifier: Apache-2.0
 """The rig that stands in for the hardware, alone or inside the plant node."""
 
-from tactile_push.simulation.batch import Rollouts, rollouts
+from tactile_push.simulation.batch import rollouts
 from tactile_push.simulation.belt import Belt
-from tactile_push.simulation.device_server import DeviceServer, serve
+from tactile_push.simulation.device_server import serve
 from tactile_push.simulation.experiment import experiment
 from tactile_push.simulation.faults import Faults
 from tactile_push.simulation.object_files import read_object, read_support
 from tactile_push.simulation.rig import Rig, RigConfig, paper_block, paper_disk
 from tactile_push.simulation.rollout import Rollout, rollout
-from tactile_push.simulation.sensor import Readout, Sample, Sensor
+from tactile_push.simulation.sensor import Readout, Sensor
 from tactile_push.simulation.servo import Servo, Workspace
 from tactile_push.simulation.uneven_friction import UnevenFriction
 
 __all__ = [
     'Belt',
-    'DeviceServer',
     'Faults',
     'Readout',
     'Rig',
     'RigConfig',
     'Rollout',
-    'Rollouts',
-    'Sample',
     'Sensor',
     'Servo',
     'UnevenFriction',

@@ -40,26 +40,7 @@ class Rollouts:
 
     The arrays of quantities have the shape (B, K + 1) with histories, index k being the start of
     control period k and NaN what comes after the end of a run; without them they have the shape
-    (B,) and hold the last value of each run.
-
-    Parameters
-    ----------
-    theta : ndarray
-        Angle of the pushed edge or tangent [rad].
-    phi : ndarray
-        Push angle that drives period k [rad].
-    d : ndarray
-        Contact along the edge [m].
-    x, y : ndarray
-        Centre of mass on the belt, the finger's disk starting at the origin [m].
-    mode : ndarray
-        How the contact moved in period k: an index of `MODES`.
-    steps : ndarray of int, shape (B,)
-        Control periods at whose start finger and object touched: fewer than asked for where
-        contact was lost.
-    settle_step : ndarray of int, shape (B,)
-        First step from which theta stays within the band around its desired value; -1 where it is
-        outside at the end or contact was lost.
+    (B,) and hold the last value of each run. The quantities are those of `Rollout`.
     """
 
     theta: Array
@@ -68,7 +49,10 @@ class Rollouts:
     x: Array
     y: Array
     mode: Array
+    # Control periods at whose start finger and object touched: fewer where contact was lost; (B,).
     steps: npt.NDArray[np.int64]
+    # First step from which theta stays within the band around its desired value; -1 where it is
+    # outside at the end or contact was lost; (B,).
     settle_step: npt.NDArray[np.int64]
 
 
@@ -219,16 +203,8 @@ def rollouts(
     sliders = [slider] if isinstance(slider, Slider) else list(slider)
     if not sliders:
         raise ValueError('slider: expected at least one')
-    numbers = dict(
-        theta=theta,
-        d=d,
-        phi=phi,
-        kp=kp,
-        kd=kd,
-        theta_desired=theta_desired,
-        phi_min=phi_min,
-        phi_max=phi_max,
-    )
+    gains = {'kp': kp, 'kd': kd, 'theta_desired': theta_desired}
+    numbers = {'theta': theta, 'd': d, 'phi': phi, **gains, 'phi_min': phi_min, 'phi_max': phi_max}
     arrays = {name: np.asarray(value, dtype=float) for name, value in numbers.items()}
     for name, array in arrays.items():
         if not np.isfinite(array).all():

@@ -13,25 +13,17 @@ class Pace:
     Simulated time waits for two things: for the next command when it is due, and for a contact with
     the stamp of the last reading, because a driver that reads late would stamp it with a later
     time. So a loaded machine makes an experiment slower, not different. Time does not wait for the
-    contact of a reading that is lost, tells of no contact or is an outlier: none need follow.
+    contact of a reading that is lost, reports no contact or is an outlier: none need follow.
     After `patience` of wall time it no longer waits for what is overdue, until that comes again:
     whoever sends it has gone. Time in which this process itself stood still does not count, since
     what is overdue may lie here unread.
-
-    Parameters
-    ----------
-    real_time_factor : float
-        Simulated seconds a second, at the most; at most 1 until there are contacts and commands.
-    control_period : float
-        Simulated time between commands [s].
-    patience : float
-        How long time stands still for something overdue [s of wall time].
     """
 
     def __init__(self, real_time_factor: float, control_period: float, patience: float) -> None:
+        # Simulated seconds a second, at the most; at most 1 until there are contacts and commands.
         self._factor = real_time_factor
-        self._control_period = control_period
-        self._patience = patience
+        self._control_period = control_period  # simulated time between commands [s]
+        self._patience = patience  # how long time stands for something overdue [s of wall time]
         self._next_wall = -math.inf
         self._held = 0.0  # for how long time has stood still [s of wall time]
         self._looked = math.inf  # when it was last seen to stand still [s of wall time]

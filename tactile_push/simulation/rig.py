@@ -327,16 +327,8 @@ class Rig:
             return
         self.phi = math.atan2(v_y, v_x)
         self.object_pose, self.sigma, self.touching, self.mode = move_finger(
-            self.object_pose,
-            self.sigma,
-            self.touching,
-            self.finger_x,
-            self.finger_y,
-            v_x,
-            v_y,
-            duration,
-            self._body,
-            Finger(*self._friction_cone, self.config.radius),
+            *(self.object_pose, self.sigma, self.touching, self.finger_x, self.finger_y),
+            *(v_x, v_y, duration, self._body, Finger(*self._friction_cone, self.config.radius)),
         )
         self.finger_x += v_x * duration
         self.finger_y += v_y * duration

@@ -165,35 +165,12 @@ def run(
     band: float,
     history: Array,
 ) -> tuple[int, int]:
-    """Run the law (18) or, open loop, given pushes.
+    """Run the law (18) or, open loop, given pushes [rad], the last of which drives nothing.
 
-    Parameters
-    ----------
-    start : Start
-        Where the run starts.
-    law : LawNumbers
-        The law.
-    pushes : ndarray, shape (steps + 1,), or None
-        Push angles [rad] instead of the law; the last one drives nothing.
-    periods : Periods
-        The control periods and the belt.
-    body : Body
-        The object.
-    finger : Finger
-        The finger.
-    servo : ServoNumbers or None
-        How the finger follows its command; None for perfectly.
-    band : float
-        How near theta must stay to its desired value to have settled [rad].
-    history : ndarray, shape (steps + 1, 6) or (1, 6)
-        Takes the quantities at the start of every period, or of the last one.
-
-    Returns
-    -------
-    done : int
-        Number of the period at whose start finger and object touched for the last time.
-    settled : int
-        First period from which theta stays in the band, or -1.
+    Without a servo the finger follows its command perfectly. `history` takes the quantities at the
+    start of every period, shape (steps + 1, 6), or of the last one, (1, 6). Return the number of
+    the period at whose start finger and object touched for the last time, and the first period from
+    which theta stays within the `band` around its desired value [rad], or -1.
     """
     path, r = body.path, finger.r
     steps, period, belt_speed = periods

@@ -70,21 +70,11 @@ class Sensor:
 
 @dataclass(frozen=True)
 class Sample:
-    """A reading on its way out.
+    """A reading on its way out."""
 
-    Parameters
-    ----------
-    taken : float
-        When it was read [s].
-    reading : Reading or None
-        What is sent; None if it is lost on the way.
-    likely : bool
-        Whether it is a contact near enough to the truth that nobody should refuse it.
-    """
-
-    taken: float
-    reading: Reading | None
-    likely: bool
+    taken: float  # when it was read [s]
+    reading: Reading | None  # what is sent; None if it is lost on the way
+    likely: bool  # whether it is so near to the truth that nobody should refuse it
 
 
 class Readout:

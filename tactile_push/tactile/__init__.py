@@ -7,17 +7,14 @@ from tactile_push.tactile.hemisphere import (
     Contact,
     ReadingRejectedError,
     contact_of_reading,
-    normalized_angle,
     reading_of_contact,
 )
-from tactile_push.tactile.jumps import JUMP_TOLERANCE, MAX_THETA_RATE, JumpGuard
-from tactile_push.tactile.planar_finger import FingerPose, OutOfReachError, PlanarFinger, pole_angle
-from tactile_push.tactile.pole_history import BELIEVED, PoleHistory
+from tactile_push.tactile.jumps import JUMP_TOLERANCE, MAX_THETA_RATE
+from tactile_push.tactile.planar_finger import FingerPose, OutOfReachError, PlanarFinger
 from tactile_push.tactile.reading import NO_CONTACT, Reading
 from tactile_push.tactile.reading_state import reading_values
 
 __all__ = [
-    'BELIEVED',
     'JUMP_TOLERANCE',
     'MAX_THETA_RATE',
     'NO_CONTACT',
@@ -25,15 +22,11 @@ __all__ = [
     'Contact',
     'ContactFinder',
     'FingerPose',
-    'JumpGuard',
     'OutOfReachError',
     'PlanarFinger',
-    'PoleHistory',
     'Reading',
     'ReadingRejectedError',
     'contact_of_reading',
-    'normalized_angle',
-    'pole_angle',
     'reading_of_contact',
     'reading_values',
 ]

@@ -63,9 +63,10 @@ class ContactFinder:
     radius, max_out_of_plane, detectable_range, mount_angle : float
         As given; may be changed between readings.
     jumps : JumpGuard
-        Refuses jumps; its bounds may be changed.
+        Refuses jumps; its bounds `max_rate` and `tolerance` may be changed.
     pole : PoleHistory or None
-        The finger tip's direction in the past; None if it does not turn.
+        The finger tip's direction in the past; its `timeout` may be changed. None if it does not
+        turn.
     joint_angle : float
         By how far the joints had turned the tip at the moment of the last reading [rad]; NaN if
         that was not looked at or not known.

@@ -112,16 +112,5 @@ def reading_of_contact(theta: float, psi: float, normal_force: float = math.nan)
 
 
 def normalized_angle(angle: float) -> float:
-    """Bring an angle into [-pi, pi].
-
-    Parameters
-    ----------
-    angle : float
-        Angle [rad].
-
-    Returns
-    -------
-    float
-        The same direction [rad]; an angle that lies in the range stays as it is, to the bit.
-    """
+    """Bring an angle into [-pi, pi]; one that lies there stays as it is, to the bit."""
     return angle if -math.pi <= angle <= math.pi else math.remainder(angle, 2.0 * math.pi)

@@ -45,37 +45,17 @@ class JumpGuard:
     row each of which lies that near to the one before: another place of the object has come to
     the finger then, or the last accepted was the error. The longer the sensor was silent, the more
     may have changed: after pi / max_rate everything is believed at once.
-
-    Parameters
-    ----------
-    max_rate : float
-        How fast theta can turn [rad/s]. May be changed.
-    tolerance : float
-        How far two readings of the same theta may differ [rad]. May be changed.
     """
 
     def __init__(self, max_rate: float = MAX_THETA_RATE, tolerance: float = JUMP_TOLERANCE) -> None:
-        self.max_rate = max_rate
-        self.tolerance = tolerance
+        self.max_rate = max_rate  # how fast theta can turn [rad/s]; may be changed
+        self.tolerance = tolerance  # how far two readings of one theta may differ [rad]; as above
         self._accepted: tuple[float, float] | None = None
         self._refused: tuple[float, float] | None = None
         self._in_a_row = 0
 
     def check(self, stamp: float, theta: float) -> None:
-        """Accept a theta or refuse it.
-
-        Parameters
-        ----------
-        stamp : float
-            When the sensor was read [s]; newer than the one before.
-        theta : float
-            Angle of the pushed edge [rad].
-
-        Raises
-        ------
-        ReadingRejectedError
-            If it is a jump that is not confirmed yet.
-        """
+        """Accept a theta [rad], read after the last one, or refuse an unconfirmed jump."""
         if self._far(stamp, theta, self._accepted):
             again = self._in_a_row and not self._far(stamp, theta, self._refused)
             self._in_a_row = self._in_a_row + 1 if again else 1

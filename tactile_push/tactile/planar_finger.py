@@ -117,18 +117,5 @@ class PlanarFinger:
 
 
 def pole_angle(mount_angle: float, joint_angles: Iterable[float]) -> float:
-    """Return the angle of the finger tip's pole in `finger_base`.
-
-    Parameters
-    ----------
-    mount_angle : float
-        Angle of the finger at joint angles zero [rad].
-    joint_angles : iterable of float
-        Angles of the moving joints [rad], counterclockwise.
-
-    Returns
-    -------
-    float
-        psi [rad].
-    """
+    """Return psi, the angle of the finger tip's pole in `finger_base` [rad]."""
     return mount_angle + sum(joint_angles)

@@ -11,7 +11,7 @@ BELIEVED = 3  # so many in a row that agree are no accident
 
 
 class PoleHistory:
-    """Remembers the pole's angle for a while and gives it at a reading's time.
+    """Remembers the pole's angle for a while and returns it at a reading's time.
 
     Angles are interpolated the shorter way around, so that a joint which reports its angle in
     (-pi, pi] may pass the end of that range.
@@ -20,43 +20,18 @@ class PoleHistory:
     ignored: it came late or twice. `BELIEVED` of them in a row, each newer than the one before,
     mean that the clock was set back, or that the newest had been stamped in the future: what is
     remembered then starts over with these.
-
-    Parameters
-    ----------
-    timeout : float
-        How far in time the nearest remembered angle may be [s]. May be changed.
-    length : int, optional
-        How many angles are remembered.
-
-    Attributes
-    ----------
-    age : float
-        How far in time the nearest angle was when one was last asked for [s]; NaN before that.
     """
 
     def __init__(self, timeout: float, length: int = 256) -> None:
-        self.timeout = timeout
-        self.age = math.nan
+        self.timeout = timeout  # how far in time the nearest angle may be [s]; may be changed
+        self.age = math.nan  # how far it was when an angle was last asked for [s]
         self._length = length
         self._stamps: list[float] = []
         self._angles: list[float] = []
         self._late: list[tuple[float, float]] = []
 
     def record(self, stamp: float, psi: float) -> bool:
-        """Remember an angle.
-
-        Parameters
-        ----------
-        stamp : float
-            When the joints were read [s].
-        psi : float
-            Angle of the pole [rad].
-
-        Returns
-        -------
-        bool
-            Whether it was taken: False if it is not finite or not newer than the newest.
-        """
+        """Remember an angle; return False if it is not finite or not newer than the newest."""
         if not (math.isfinite(stamp) and math.isfinite(psi)):
             return False
         psi = normalized_angle(psi)
@@ -78,28 +53,13 @@ class PoleHistory:
         return True
 
     def at(self, stamp: float) -> float:
-        """Return the pole's angle at a time.
+        """Return the pole's angle at a time; refuse the reading if none is known within `timeout`.
 
         Between two remembered times it is interpolated. After the newest it goes on as it turned
         on average since the oldest one that is at most `timeout` older than the newest: over two
         neighbours alone the noise of the joint angles would be magnified. It goes on for no longer
         than it was watched turning, so the noise is at most doubled. Before the oldest it is the
         oldest.
-
-        Parameters
-        ----------
-        stamp : float
-            When the sensor was read [s].
-
-        Returns
-        -------
-        float
-            psi [rad].
-
-        Raises
-        ------
-        ReadingRejectedError
-            If nothing is remembered, or nothing within `timeout` of the time.
         """
         stamps, angles = self._stamps, self._angles
         if not stamps:

@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from tactile_push.control import Newest
+from tactile_push.control.newest import Newest
 
 
 def test_there_is_nothing_at_first():

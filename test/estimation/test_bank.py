@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from support.pushed_block import HALF, RADIUS
-from tactile_push.estimation import Liberties, Prior
-from tactile_push.estimation.bank import Bank
+from tactile_push.estimation.bank import Bank, Liberties
 from tactile_push.estimation.hypotheses import ALPHA, THETA, D, L
+from tactile_push.estimation.prior import Prior
 
 NOISE = 0.002
 RIGID = Liberties((0.0, 0.0), (0.0, 0.0), 0.0, 0.0, 0.0)

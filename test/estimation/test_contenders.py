@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tactile_push.estimation import Estimate, Quantity
+from tactile_push.estimation.contact_estimator import Estimate, Quantity
 from tactile_push.estimation.contenders import UNLIKELY, Contenders
 from tactile_push.estimation.contradictions import FEWEST, STILL
 

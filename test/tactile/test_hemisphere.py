@@ -13,9 +13,9 @@ from tactile_push.tactile import (
     Reading,
     ReadingRejectedError,
     contact_of_reading,
-    normalized_angle,
     reading_of_contact,
 )
+from tactile_push.tactile.hemisphere import normalized_angle
 
 PROPERTY = settings(derandomize=True, deadline=None, max_examples=60)
 RADIUS = 0.0135

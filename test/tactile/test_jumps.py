@@ -9,7 +9,8 @@ import pytest
 
 from tactile_push.mechanics import Outline, Slider
 from tactile_push.simulation import Rig, RigConfig
-from tactile_push.tactile import JUMP_TOLERANCE, MAX_THETA_RATE, JumpGuard, ReadingRejectedError
+from tactile_push.tactile import JUMP_TOLERANCE, MAX_THETA_RATE, ReadingRejectedError
+from tactile_push.tactile.jumps import JumpGuard
 
 DEGREE = math.radians(1.0)
 NOISE = 0.5 * DEGREE

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tactile_push.tactile import FingerPose, OutOfReachError, PlanarFinger, pole_angle
+from tactile_push.tactile import FingerPose, OutOfReachError, PlanarFinger
+from tactile_push.tactile.planar_finger import pole_angle
 
 PROPERTY = settings(derandomize=True, deadline=None, max_examples=60)
 FINGER = PlanarFinger(0.06, 0.08, math.pi / 2.0)

@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tactile_push.tactile import PoleHistory, ReadingRejectedError
+from tactile_push.tactile import ReadingRejectedError
+from tactile_push.tactile.pole_history import PoleHistory
 
 PROPERTY = settings(derandomize=True, deadline=None, max_examples=60)
 
