@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""What becomes of each message to the controller, and what the controller says."""
+
+import math
+
+import pytest
+
+from tactile_push.control import NO_REASON, PUSHING, STATES, WAITING
+from tactile_push.interface import COMMAND, CONTROLLER_STATE, FINGER_BASE, FINGER_DISK
+from tactile_push.parameters.push_controller import PushControllerParameters, make_control
+from tactile_push.pipeline import Control, edge_angle
+from tactile_push.tactile import PlanarFinger
+
+JOINTS = ['proximal_joint', 'distal_joint']
+# With these angles the first link leans by 60 degrees and the second points along +y.
+ANGLES = [math.pi / 3.0, math.pi / 6.0]
+FINGER_X = 0.03  # 0.06 cos 60 deg [m]
+
+
+@pytest.fixture
+def control():
+    """Return the step with an active control, on a clock that begins at 0."""
+    push = make_control(PushControllerParameters())
+    push.activate(0.0)
+    finger = PlanarFinger(0.06, 0.04, 0.0)
+    return Control(push, finger, JOINTS, lambda sec, nanosec: sec + nanosec * 1e-9)
+
+
+@pytest.mark.parametrize(
+    ('theta', 'plausible'),
+    [(0.2, True), (-math.pi / 2.0, True), (1.58, False), (math.nan, False), (math.inf, False)],
+)
+def test_contact_says_whether_a_pushed_edge_can_have_its_angle(control, theta, plausible):
+    assert control.contact((1, 0), theta) is plausible
+
+
+def test_contact_is_as_old_as_its_stamp(control):
+    control.contact((1, 500_000_000), 0.2)
+    tick = control.tick((1, 600_000_000))
+    assert (tick.state, tick.stop_reason, tick.theta) == (PUSHING, NO_REASON, 0.2)
+    assert tick.silence == pytest.approx(0.1)
+
+
+def test_joints_say_where_the_finger_is_across_the_belt(control):
+    assert control.joint_states((1, 0), ['other', *JOINTS], [7.0, *ANGLES])
+    tick = control.tick((1, 250_000_000))
+    assert tick.finger_x == pytest.approx(FINGER_X)
+    assert tick.finger_age == pytest.approx(0.25)
+
+
+def test_joints_of_another_mechanism_say_nothing(control):
+    assert control.joint_states((1, 0), ['other', JOINTS[0]], ANGLES)
+    assert math.isnan(control.tick((1, 0)).finger_x)
+
+
+def test_joint_angles_that_are_no_numbers_are_told_and_not_taken(control):
+    assert control.joint_states((1, 0), JOINTS, ANGLES)
+    assert not control.joint_states((2, 0), JOINTS, [math.inf, 0.0])
+    assert control.tick((2, 0)).finger_age == pytest.approx(1.0)
+
+
+def test_time_since_the_last_tick_is_told_as_it_is_given(control):
+    assert math.isnan(control.tick((1, 0)).elapsed)
+    assert control.tick((1, 100_000_000), 0.125).elapsed == 0.125
+
+
+def test_before_the_first_contact_there_is_a_state_and_no_command(control):
+    tick = control.tick((1, 0))
+    assert tick.state == WAITING
+    assert [topic for topic, _ in control.outputs((1, 0), tick)] == [CONTROLLER_STATE]
+
+
+def test_command_comes_before_the_state_with_the_stamp_of_the_period(control):
+    control.contact((1, 0), 0.2)
+    tick = control.tick((1, 7))
+    (command_topic, command), (state_topic, state) = control.outputs((1, 7), tick)
+    assert (command_topic, state_topic) == (COMMAND, CONTROLLER_STATE)
+    stamp = {'sec': 1, 'nanosec': 7}
+    assert command['header'] == {'stamp': stamp, 'frame_id': FINGER_BASE}
+    assert command['twist'] == {'linear': {'x': tick.v_x}}
+    assert state['header']['stamp'] == stamp
+    values = dict(zip(state['name'], state['position'], strict=True))
+    assert (values['theta'], values['v_x']) == (0.2, tick.v_x)
+    assert values['state'] == STATES.index(PUSHING)
+
+
+@pytest.mark.parametrize('frame', ['', FINGER_DISK, f'left/{FINGER_DISK}', f'left_{FINGER_DISK}'])
+def test_angle_of_the_edge_is_the_rotation_about_z(frame):
+    # Half the angle is 0.15, whatever the length of the quaternion.
+    z, w = 3.0 * math.sin(0.15), 3.0 * math.cos(0.15)
+    assert edge_angle(frame, 0.0, 0.0, z, w) == pytest.approx(0.3)
+
+
+@pytest.mark.parametrize(
+    ('frame', 'quaternion'),
+    [
+        ('map', (0.0, 0.0, 0.0, 1.0)),
+        (FINGER_BASE, (0.0, 0.0, 0.0, 1.0)),
+        (FINGER_DISK, (0.6, 0.0, 0.0, 0.8)),
+        (FINGER_DISK, (0.0, 0.0, 0.0, 0.0)),
+        (FINGER_DISK, (0.0, 0.0, math.nan, 1.0)),
+    ],
+)
+def test_another_frame_and_another_rotation_tell_of_no_angle(frame, quaternion):
+    assert math.isnan(edge_angle(frame, *quaternion))

@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is said of the object after a control period, and at which moment."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from tactile_push.control import NO_REASON, PUSHING, PushLaw, Tick, tick_values
+from tactile_push.interface import OBJECT_POSE, SENSING_STATE
+from tactile_push.parameters.active_sensing import ActiveSensingParameters, make_sensing
+from tactile_push.pipeline import Sensing
+from tactile_push.pipeline.sensing import Sensed
+
+RADIUS = 0.0285  # [m]
+
+
+def tick(number, theta, silence=0.02):
+    return Tick(
+        state=PUSHING,
+        stop_reason=NO_REASON,
+        theta=theta,
+        phi=math.pi / 2.0,
+        v_x=0.0,
+        silence=silence,
+        saturated=False,
+        limited=False,
+        finger_x=0.0,
+        ticks=number,
+        ticks_lost=0,
+        elapsed=0.1,
+        finger_age=0.02,
+    )
+
+
+@pytest.fixture
+def sensing():
+    """Return the step for a disk, whose d is 0 by its roundness."""
+    values = ActiveSensingParameters.of({'disk_radius': RADIUS})
+    return Sensing(make_sensing(values), lambda sec, nanosec: sec + nanosec * 1e-9)
+
+
+def sensed(**changed):
+    """Return what is known after a control period at 10 s whose reading is 0.25 s old."""
+    values = {'readings': 3.0, 'age': 0.25} | changed.pop('values', {})
+    estimate = SimpleNamespace(
+        contradiction='', pose=np.array([0.1, 0.2, 0.0]), covariance=np.eye(3)
+    )
+    vars(estimate).update(changed.pop('estimate', {}))
+    has_pose = changed.pop('has_pose', True)
+    return Sensed((10, 0), values, estimate, took=True, forgot='', has_pose=has_pose)
+
+
+def test_message_and_control_period_tell_the_same(sensing):
+    values = tick_values(tick(1, 0.1), PushLaw(0.05, 5.0, 0.0))
+    by_message = sensing.state((1, 0), list(values), list(values.values()))
+    again = Sensing(
+        make_sensing(ActiveSensingParameters.of({'disk_radius': RADIUS})), lambda sec, nanosec: sec
+    )
+    by_tick = again.tick((1, 0), tick(1, 0.1))
+    assert repr(by_message.values) == repr(by_tick.values)
+    assert by_message.took is by_tick.took is True
+
+
+def test_message_without_a_number_that_is_needed_is_refused(sensing):
+    values = tick_values(tick(1, 0.1), PushLaw(0.05, 5.0, 0.0))
+    del values['silence']
+    with pytest.raises(ValueError, match='no control period: .*silence'):
+        sensing.state((1, 0), list(values), list(values.values()))
+
+
+def test_nothing_is_known_before_the_first_reading(sensing):
+    before = sensing.tick((1, 0), tick(1, math.nan, math.nan))
+    assert not (before.known or before.took or before.has_pose)
+    assert [topic for topic, _ in before.outputs()] == [SENSING_STATE]
+    after = sensing.tick((1, 100_000_000), tick(2, 0.1))
+    assert after.known and after.took and after.has_pose
+    assert (after.values['d_least'], after.values['d_most']) == (0.0, 0.0)
+    assert [topic for topic, _ in after.outputs()] == [SENSING_STATE, OBJECT_POSE]
+
+
+def test_state_has_the_stamp_of_the_control_period_and_the_pose_that_of_its_reading():
+    (_, state), (_, pose) = sensed().outputs()
+    assert state['header']['stamp'] == {'sec': 10, 'nanosec': 0}
+    assert pose['header']['stamp'] == {'sec': 9, 'nanosec': 750_000_000}
+    assert pose['pose']['pose']['position'] == {'x': 0.1, 'y': 0.2}
+
+
+def test_pose_that_is_not_new_is_not_told():
+    assert [topic for topic, _ in sensed(has_pose=False).outputs()] == [SENSING_STATE]
+
+
+def test_object_that_readings_contradict_is_not_known():
+    assert sensed().known
+    assert not sensed(estimate={'contradiction': 'it moves by itself'}).known
+    assert not sensed(values={'readings': 0.0}).known
