@@ -93,12 +93,9 @@ def test_waiting_ends_with_what_was_waited_for(observer):
         observer.wait_for(lambda: False, 'the moon', patience=0.05)
 
 
-def test_observer_has_a_patience_of_its_own(domain):
-    with (
-        Observer(domain, patience=0.05) as observer,
-        pytest.raises(TimeoutError, match=r'waited 0\.05 s in vain for service /nobody'),
-    ):
-        observer.call(SetBool, '/nobody', SetBool.Request())
+def test_service_that_nobody_offers_is_waited_for_so_long_and_named(observer):
+    with pytest.raises(TimeoutError, match=r'waited 0\.05 s in vain for service /nobody$'):
+        observer.call(SetBool, '/nobody', SetBool.Request(), patience=0.05)
 
 
 def test_service_is_called_and_its_answer_returned(observer, other):

@@ -137,11 +137,11 @@ def test_node_of_a_namespace_gets_it_after_its_other_arguments():
 
 
 def test_controller_says_what_it_does_and_why(rig):
-    assert rig.state() == ''
+    assert rig.state == ''
     for state, reason in ((PUSHING, ''), ('stopped', CONTACT_SILENT)):
         numbers = STATES.index(state), STOP_REASONS.index(reason)
         rig.states.append(truth(state=numbers[0], stop_reason=numbers[1]))
-        assert (rig.state(), rig.reason()) == (state, reason)
+        assert (rig.state, rig.reason) == (state, reason)
 
 
 def test_ground_truth_is_the_newest_and_is_waited_for(rig):
