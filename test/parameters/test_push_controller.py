@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""The control that the parameters of `push_controller` make."""
+
+import math
+
+import pytest
+
+from tactile_push.parameters import PushControllerParameters
+from tactile_push.parameters.push_controller import make_control, make_finger, take_values
+
+# Each number that may change while the node runs, and where it has to arrive.
+VALUES = {
+    'kp': (0.1, lambda control: control.law.kp),
+    'kd': (2.0, lambda control: control.law.kd),
+    'theta_desired': (0.3, lambda control: control.law.theta_desired),
+    'contact_timeout': (0.7, lambda control: control.limits.contact_timeout),
+    'max_ticks_lost': (5, lambda control: control.limits.max_ticks_lost),
+    'max_speed': (0.03, lambda control: control.limits.max_speed),
+    'max_acceleration': (0.2, lambda control: control.limits.max_acceleration),
+    'joint_state_timeout': (0.9, lambda control: control.limits.joint_state_timeout),
+}
+# And those that are fixed.
+FIXED = {
+    'phi_min': (0.7, lambda control: control.law.phi_min),
+    'phi_max': (2.0, lambda control: control.law.phi_max),
+    'belt_speed': (0.008, lambda control: control.belt_speed),
+    'workspace_min': (-0.2, lambda control: control.limits.workspace_min),
+    'workspace_max': (0.3, lambda control: control.limits.workspace_max),
+}
+
+
+def test_every_number_that_may_change_is_tested_here():
+    changeable = {p.name for p in PushControllerParameters.declared() if not p.read_only}
+    assert changeable == set(VALUES)
+
+
+@pytest.mark.parametrize('name', VALUES | FIXED)
+def test_each_number_arrives_at_the_start(name):
+    value, place = (VALUES | FIXED)[name]
+    assert place(make_control(PushControllerParameters())) != value
+    assert place(make_control(PushControllerParameters(**{name: value}))) == value
+
+
+@pytest.mark.parametrize('name', VALUES)
+def test_a_number_may_change_while_the_control_runs(name):
+    value, place = VALUES[name]
+    control = make_control(PushControllerParameters())
+    take_values(control, PushControllerParameters(**{name: value}))
+    assert place(control) == value
+
+
+def test_the_period_is_that_of_the_rate():
+    assert make_control(PushControllerParameters(control_rate=20.0)).period == 0.05
+
+
+def test_the_finger_has_the_links_of_the_parameters():
+    straight = make_finger(PushControllerParameters(proximal_length=0.05, distal_length=0.1))
+    # Mounted straight ahead: the first joint at a right angle brings the disk to the left.
+    assert straight.forward(0.0, 0.0).x == pytest.approx(0.0, abs=1e-15)
+    assert straight.forward(math.pi / 2.0, 0.0).x == pytest.approx(-0.15)
+    assert straight.forward(0.0, -math.pi / 2.0).x == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize('names', [[], ['one'], ['one', 'one'], ['one', 'two', 'three']])
+def test_a_finger_without_two_joints_is_refused(names):
+    with pytest.raises(ValueError, match='joint_names: expected two different names'):
+        make_control(PushControllerParameters(joint_names=names))
+
+
+def test_an_empty_workspace_is_refused():
+    with pytest.raises(ValueError, match='workspace_min: expected less than workspace_max'):
+        make_control(PushControllerParameters(workspace_min=0.1, workspace_max=0.1))
