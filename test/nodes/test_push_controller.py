@@ -1,0 +1,128 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""The controller's node: contacts in, commands and control periods out."""
+
+import math
+
+import pytest
+from geometry_msgs.msg import PoseStamped, TwistStamped
+from lifecycle_msgs.msg import State
+from rclpy.parameter import Parameter as RosParameter
+from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
+
+from support.node_bench import declared_topics
+from tactile_push.control import ANOTHER_COMMAND, PUSHING, STATES, STOP_REASONS, STOPPED, WAITING
+from tactile_push.interface import COMMAND, CONTACT, CONTROLLER_STATE, PUSH_CONTROLLER, TOPICS
+from tactile_push.nodes.push_controller import PushController
+from tactile_push.nodes.ros.diagnostics import ERROR, OK
+from tactile_push.nodes.ros.messages import filled, stamp_of
+from tactile_push.nodes.ros.parameters import ConfigurationError
+from tactile_push.pipeline.messages import contact_fields
+
+RATE = {'control_rate': 50.0, 'max_ticks_lost': 100}
+
+
+def feel(bench, publisher, theta):
+    """Return what publishes a contact that was felt just now."""
+
+    def publish():
+        stamp = bench.peer.get_clock().now().to_msg()
+        fields = contact_fields((stamp.sec, stamp.nanosec), 0.0, 0.0135, theta)
+        publisher.publish(filled(PoseStamped(), fields))
+
+    return publish
+
+
+def told(bench, name):
+    """Return the state or the reason to stop that the node told of last."""
+    codes = {'state': STATES, 'stop_reason': STOP_REASONS}[name]
+    heard = bench.heard[CONTROLLER_STATE]
+    return codes[int(bench.values(CONTROLLER_STATE)[name])] if heard else ''
+
+
+def test_topics_are_those_of_the_interface(bench):
+    bench.start(PushController)
+    assert bench.topics() == declared_topics(PUSH_CONTROLLER)
+
+
+def test_without_autostart_it_waits_for_its_manager(bench):
+    node = bench.start(PushController, autostart=False)
+    assert node._state_machine.current_state[0] == State.PRIMARY_STATE_UNCONFIGURED
+    assert bench.topics() == (set(), set())
+    assert bench.health == (OK, 'inactive')
+
+
+def test_contacts_become_commands_by_the_law(bench):
+    bench.start(PushController, **RATE, kp=0.1, kd=0.0, theta_desired=0.0, max_acceleration=100.0)
+    bench.hear(JointState, CONTROLLER_STATE)
+    bench.hear(TwistStamped, COMMAND)
+    contacts = bench.publisher(PoseStamped, CONTACT)
+    bench.until(lambda: told(bench, 'state') == WAITING)
+    assert bench.heard[COMMAND] == []  # whoever moves the finger before a contact, it is not this
+
+    bench.until(
+        lambda: bench.heard[COMMAND] and bench.heard[COMMAND][-1].twist.linear.x < -0.0005,
+        feel(bench, contacts, 0.3),
+    )
+    periods = {
+        stamp_of(message): dict(zip(message.name, message.position, strict=True))
+        for message in bench.heard[CONTROLLER_STATE]
+    }
+    for command in bench.heard[COMMAND]:
+        if stamp_of(command) not in periods:
+            continue  # its period is on its way
+        values = periods[stamp_of(command)]
+        assert command.header.frame_id == 'finger_base'
+        assert tuple(values) == TOPICS[CONTROLLER_STATE].field_names
+        assert values['theta'] == pytest.approx(0.3)
+        assert STATES[int(values['state'])] == PUSHING
+        # Each new contact turns the push angle by kp theta: a multiple of 0.03 from straight ahead.
+        turns = (values['phi'] - math.pi / 2.0) / 0.03
+        assert turns == pytest.approx(round(turns), abs=1e-9)
+        assert command.twist.linear.x == pytest.approx(0.005 / math.tan(values['phi']), abs=1e-12)
+
+
+def test_a_command_of_another_node_stops_it_until_it_is_resumed(bench):
+    node = bench.start(PushController, **RATE)
+    bench.hear(JointState, CONTROLLER_STATE)
+    contacts = bench.publisher(PoseStamped, CONTACT)
+    touch = feel(bench, contacts, 0.1)
+    bench.until(lambda: told(bench, 'state') == PUSHING, touch)
+    bench.publisher(TwistStamped, COMMAND).publish(TwistStamped())
+    bench.until(lambda: told(bench, 'state') == STOPPED, touch)
+    assert told(bench, 'stop_reason') == ANOTHER_COMMAND
+    assert bench.health == (ERROR, 'stopped: another command, until resumed')
+    answer = node._on_resume(Trigger.Request(), Trigger.Response())
+    assert answer.success
+    assert answer.message == 'was stopped: another command, until resumed'
+
+
+def test_an_inactive_controller_is_not_resumed(bench):
+    node = bench.start(PushController, autostart=False)
+    answer = node._on_resume(Trigger.Request(), Trigger.Response())
+    assert (answer.success, answer.message) == (False, 'inactive')
+
+
+def test_a_gain_changes_while_it_runs_and_a_bound_on_phi_does_not(bench):
+    node = bench.start(PushController)
+    gain, bound = node.set_parameters(
+        [RosParameter('kp', value=0.2), RosParameter('phi_min', value=0.5)]
+    )
+    assert (gain.successful, bound.successful) == (True, False)
+    assert node._control.law.kp == 0.2
+
+
+@pytest.mark.parametrize(
+    ('parameters', 'refusal'),
+    [
+        ({'joint_names': '[one]'}, 'parameter joint_names: expected two different names'),
+        ({'workspace_min': 0.2}, 'parameter workspace_min: expected less than workspace_max'),
+        ({'kp': -0.1}, 'parameter kp: expected'),
+        ({'control_rate': 1}, 'parameter control_rate: expected'),
+    ],
+)
+def test_a_control_that_is_none_is_refused(bench, parameters, refusal):
+    with pytest.raises(ConfigurationError) as refused:
+        bench.start(PushController, **parameters)
+    assert str(refused.value).startswith(refusal)
