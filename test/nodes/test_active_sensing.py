@@ -103,7 +103,7 @@ def test_readings_that_no_object_gives_are_an_error(bench):
     [
         ({'edge': 4}, 'parameter edge: expected -1 to 3, got 4'),
         ({'c_min': 0.03, 'c_max': 0.02}, 'parameter c_max: expected more than c_min = 0.03'),
-        ({'vertices': '[0.0, 1.0]'}, 'parameter vertices: expected x and y of three corners'),
+        ({'vertices': [0.0, 1.0]}, 'parameter vertices: expected x and y of three corners'),
     ],
 )
 def test_an_object_that_is_none_is_refused(bench, parameters, refusal):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A node within the test's process, and a peer that hears and sends what it should."""
 
+import json
 import time
 
 import rclpy
@@ -29,7 +30,8 @@ class NodeBench:
 
     def start(self, node_class, **parameters):
         """Make the node with given parameters, as a command line gives them, and return it."""
-        words = [w for name, value in parameters.items() for w in ('-p', f'{name}:={value}')]
+        given = {name: json.dumps(value, default=str) for name, value in parameters.items()}
+        words = [word for name, text in given.items() for word in ('-p', f'{name}:={text}')]
         rclpy.init(args=['--ros-args', *words], domain_id=self._domain)
         self.node = node_class()
         self._nodes.append(self.node)
