@@ -94,6 +94,27 @@ def test_files_start_with_the_copyright_and_say_what_they_are():
     assert found == []
 
 
+def defines_nothing_to_run(path):
+    """Return whether a file has no function and no method."""
+    functions = (ast.FunctionDef, ast.AsyncFunctionDef)
+    return not any(isinstance(node, functions) for node in ast.walk(ast.parse(path.read_text())))
+
+
+def test_every_module_with_behaviour_has_a_test_file_of_its_name():
+    modules = [
+        path.relative_to(ROOT)
+        for path in sorted(ROOT.rglob('*.py'))
+        if not path.name.startswith('__') and not defines_nothing_to_run(path)
+    ]
+    assert len(modules) > 50
+    missing = [
+        str(module)
+        for module in modules
+        if not (TREE / 'test' / module.parent / f'test_{module.name}').exists()
+    ]
+    assert missing == []
+
+
 def test_public_names_are_those_that_the_part_imports():
     found = []
     for part in PARTS:
