@@ -39,6 +39,16 @@ class Parser(argparse.ArgumentParser):
 Commands: TypeAlias = 'argparse._SubParsersAction[Parser]'
 
 
+def rerun_options(parser: Parser, *, config: str, out: str, json: str) -> None:
+    """Add the bag and the options, with these helps, of a command that computes a bag again."""
+    parser.add_argument(
+        'bag', type=Path, metavar='BAG', help='folder of a bag, or one of its files'
+    )
+    parser.add_argument('--config', type=Path, metavar='FILE', help=config)
+    parser.add_argument('-o', '--out', type=Path, metavar='DIR', help=out)
+    parser.add_argument('--json', metavar='FILE|-', help=json)
+
+
 def number(what: str, lower: float, upper: float, *, closed: bool = True) -> Callable[[str], float]:
     """Return a reader of numbers between bounds, which belong to the range if it is closed."""
 

@@ -5,10 +5,9 @@
 import argparse
 import math
 from dataclasses import asdict
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tactile_push.cli.arguments import Commands, edge, number
+from tactile_push.cli.arguments import Commands, edge, number, rerun_options
 from tactile_push.interface import ACTIVE_SENSING, node_in
 
 if TYPE_CHECKING:
@@ -27,14 +26,6 @@ def add(commands: Commands) -> None:
         'object, 2 bad input.',
     )
     option = estimate.add_argument
-    option('bag', type=Path, metavar='BAG', help='folder of a bag, or one of its files')
-    option(
-        '--config',
-        type=Path,
-        metavar='FILE',
-        help='ROS parameter file with values for active_sensing to use instead of the recorded '
-        'ones, such as the outline',
-    )
     option(
         '--edge',
         type=edge,
@@ -48,17 +39,12 @@ def add(commands: Commands) -> None:
         metavar='DEG',
         help='standard deviation of the readings (default: as recorded)',
     )
-    option(
-        '-o',
-        '--out',
-        type=Path,
-        metavar='DIR',
-        help='write a bag, in which what was estimated replaces what was recorded of it',
-    )
-    option(
-        '--json',
-        metavar='FILE|-',
-        help='write all of it and every control period as one JSON object in SI units; - prints it '
+    rerun_options(
+        estimate,
+        config='ROS parameter file with values for active_sensing to use instead of the recorded '
+        'ones, such as the outline',
+        out='write a bag, in which what was estimated replaces what was recorded of it',
+        json='write all of it and every control period as one JSON object in SI units; - prints it '
         'instead of the summary',
     )
     estimate.set_defaults(run=_estimate)

@@ -4,10 +4,9 @@
 
 import argparse
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tactile_push.cli.arguments import Commands, number
+from tactile_push.cli.arguments import Commands, number, rerun_options
 from tactile_push.interface import PUSH_CONTROLLER, node_in
 
 if TYPE_CHECKING:
@@ -28,31 +27,18 @@ def add(commands: Commands) -> None:
         'period of a finger could be made again, 2 bad input.',
     )
     option = replay.add_argument
-    option('bag', type=Path, metavar='BAG', help='folder of a bag, or one of its files')
     gain = number('a finite gain of 0 or more', 0.0, sys.float_info.max)
     option(
         '--kp', type=gain, metavar='X', help='proportional gain [rad/rad] (default: as recorded)'
     )
     option('--kd', type=gain, metavar='X', help='derivative gain [rad/rad] (default: as recorded)')
-    option(
-        '--config',
-        type=Path,
-        metavar='FILE',
-        help='ROS parameter file with values for contact_geometry, push_controller and '
+    rerun_options(
+        replay,
+        config='ROS parameter file with values for contact_geometry, push_controller and '
         'active_sensing to use instead of the recorded ones; with a section for active_sensing the '
         'object is sensed even if it was not then',
-    )
-    option(
-        '-o',
-        '--out',
-        type=Path,
-        metavar='DIR',
-        help='write a bag, in which what was computed again replaces what was recorded',
-    )
-    option(
-        '--json',
-        metavar='FILE|-',
-        help='write every control period as one JSON object in SI units; - prints it instead of '
+        out='write a bag, in which what was computed again replaces what was recorded',
+        json='write every control period as one JSON object in SI units; - prints it instead of '
         'the summary',
     )
     replay.set_defaults(run=_replay)

@@ -22,7 +22,6 @@ from tactile_push.interface import (
     CLOCK,
     COMMAND,
     CONTACT,
-    FINGER_DISK,
     JOINT_STATES,
     MARKERS,
     TOPICS,
@@ -37,8 +36,7 @@ from tactile_push.nodes.ros.parameters import ConfigurationError, declare
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED
 from tactile_push.parameters.sim_plant import SimPlantParameters, faults, faults_on, rig_config
-from tactile_push.pipeline.messages import joint_state_fields
-from tactile_push.pipeline.orientation import quaternion_of_yaw
+from tactile_push.pipeline.messages import joint_state_fields, pose_fields
 from tactile_push.simulation import Readout, Rig, serve
 from tactile_push.simulation.pace import Pace
 from tactile_push.tactile import Reading
@@ -220,12 +218,8 @@ class SimPlant(Node):
     def _publish_truth(self, stamp: Time) -> None:
         rig = self._rig
         in_disk = rig.object_in_finger_disk
-        pose = PoseStamped()
-        pose.header.stamp, pose.header.frame_id = stamp, FINGER_DISK
-        pose.pose.position.x, pose.pose.position.y = in_disk.x, in_disk.y
-        orientation = pose.pose.orientation
-        orientation.z, orientation.w = quaternion_of_yaw(in_disk.angle)
-        self._object_pose.publish(pose)
+        at = (stamp.sec, stamp.nanosec)
+        publish(self._object_pose, pose_fields(at, in_disk.x, in_disk.y, in_disk.angle))
         fields = {
             'theta': rig.theta if rig.touching else math.nan,
             'd': rig.d if rig.touching else math.nan,
@@ -237,7 +231,7 @@ class SimPlant(Node):
             'belt_speed': rig.v_y,
             'belt_travel': rig.finger_y,
         }
-        publish(self._state, joint_state_fields((stamp.sec, stamp.nanosec), fields))
+        publish(self._state, joint_state_fields(at, fields))
 
     def _health(self) -> Health:
         rig, faulty = self._rig, ', '.join(faults_on(self._settings))

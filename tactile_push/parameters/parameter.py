@@ -4,7 +4,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import Any, TypeVar, cast
 
 T = TypeVar('T')
@@ -21,10 +21,8 @@ class Parameter:
         Name.
     default : bool, int, float, str or list
         Value unless somebody gives another; every value has its type.
-    unit : str
-        Unit for people, '' if there is none.
-    words : str
-        What the parameter is.
+    unit, words : str
+        Unit for people, '' if there is none, and what the parameter is.
     lower, upper : float or int, optional
         Closed range of a number; a whole number needs both.
     choices : tuple of str, optional
@@ -101,15 +99,7 @@ def parameter(
     The arguments are those of `Parameter`. mypy takes the field for the default. Several nodes may
     share a field under the same name.
     """
-    known = {
-        'default': default,
-        'unit': unit,
-        'words': words,
-        'lower': lower,
-        'upper': upper,
-        'choices': choices,
-        'read_only': read_only,
-    }
+    known = {'known': Parameter('', default, unit, words, lower, upper, choices, read_only)}
     if isinstance(default, list):
         return cast(T, field(default_factory=default.copy, metadata=known))
     return field(default=default, metadata=known)
@@ -128,7 +118,7 @@ class NodeParameters:
         tuple of Parameter
             One for each field.
         """
-        return tuple(Parameter(known.name, **known.metadata) for known in fields(cls))
+        return tuple(replace(one.metadata['known'], name=one.name) for one in fields(cls))
 
     @classmethod
     def of(cls: type[P], given: Mapping[str, Any]) -> P:

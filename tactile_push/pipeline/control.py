@@ -21,10 +21,8 @@ class Control:
     ----------
     push : PushControl
         Law, limits and stops.
-    finger : PlanarFinger
-        The finger's links, which say where the joints bring the disk.
-    joint_names : sequence of str
-        The finger's two moving joints.
+    finger, joint_names : PlanarFinger, sequence of str
+        The finger's links, which say where the joints bring the disk, and its two moving joints.
     seconds : callable
         Returns the time [s] of a stamp.
     """
@@ -42,10 +40,8 @@ class Control:
 
         Parameters
         ----------
-        stamp : tuple of int
-            When the sensor was read [s, ns].
-        theta : float
-            Angle of the pushed edge [rad], from `edge_angle` if it came as a message.
+        stamp, theta : tuple of int, float
+            When the sensor was read [s, ns], and the angle of the pushed edge [rad].
 
         Returns
         -------
@@ -62,10 +58,8 @@ class Control:
         ----------
         stamp : tuple of int
             When the joints were read [s, ns].
-        names : sequence of str
-            Joint names.
-        positions : sequence of float
-            Joint angles [rad].
+        names, positions : sequence of str, sequence of float
+            Joint names and their angles [rad].
 
         Returns
         -------
@@ -100,14 +94,12 @@ class Control:
         return self.push.tick(self._seconds(*stamp), elapsed)
 
     def outputs(self, stamp: Stamp, tick: Tick) -> Iterator[Output]:
-        """Return the messages of a control period: the command, if there is one, and the state.
+        """Yield the messages of a control period: the command, if there is one, and the state.
 
         Parameters
         ----------
-        stamp : tuple of int
-            When the period begins [s, ns].
-        tick : Tick
-            The last tick.
+        stamp, tick : tuple of int, Tick
+            When the period begins [s, ns], and what was decided.
 
         Yields
         ------
@@ -124,10 +116,8 @@ def edge_angle(frame: str, x: float, y: float, z: float, w: float) -> float:
 
     Parameters
     ----------
-    frame : str
-        The message's frame; an empty one is taken for `finger_disk`.
-    x, y, z, w : float
-        The message's quaternion.
+    frame, x, y, z, w : str, float
+        The message's frame, `finger_disk` if it is empty, and its quaternion.
 
     Returns
     -------

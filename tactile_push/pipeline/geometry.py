@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from tactile_push.interface import CONTACT, GEOMETRY_STATE
-from tactile_push.pipeline.messages import Output, contact_fields, joint_state_fields
+from tactile_push.pipeline.messages import Output, joint_state_fields, pose_fields
 from tactile_push.pipeline.named import by_name
 from tactile_push.pipeline.stamps import Seconds, Stamp
 from tactile_push.tactile import (
@@ -53,7 +53,7 @@ class Felt(NamedTuple):
         theta = math.nan
         if self.contact is not None:
             theta = self.contact.theta
-            yield CONTACT, contact_fields(self.stamp, self.contact.x, self.contact.y, theta)
+            yield CONTACT, pose_fields(self.stamp, self.contact.x, self.contact.y, theta)
         values = reading_values(self.reading, self.joint_angle, theta, self.refusal)
         yield GEOMETRY_STATE, joint_state_fields(self.stamp, values)
 
@@ -63,10 +63,8 @@ class Geometry:
 
     Parameters
     ----------
-    finder : ContactFinder
-        Finds contacts and refuses readings.
-    joint_names : sequence of str
-        Joints whose angles add up to the direction of the finger tip.
+    finder, joint_names : ContactFinder, sequence of str
+        Finds contacts, and the joints whose angles add up to the direction of the finger tip.
     seconds : callable
         Returns the time [s] of a stamp.
     """
@@ -83,10 +81,8 @@ class Geometry:
         ----------
         stamp : tuple of int
             When the joints were read [s, ns].
-        names : sequence of str
-            Joint names.
-        positions : sequence of float
-            Joint angles [rad].
+        names, positions : sequence of str, sequence of float
+            Joint names and their angles [rad].
 
         Returns
         -------
@@ -113,10 +109,8 @@ class Geometry:
         ----------
         stamp : tuple of int
             When the sensor was read [s, ns].
-        names : sequence of str
-            Names, `azimuth` and `elevation` among them.
-        positions : sequence of float
-            Angles [rad]; NaN without a contact.
+        names, positions : sequence of str, sequence of float
+            Names, `azimuth` and `elevation` among them, and angles [rad]; NaN without a contact.
         joint_angle : float, optional
             How far the joints had turned the finger tip then [rad], if that is known otherwise than
             from `joint_states`; NaN if it is known that nobody knew.

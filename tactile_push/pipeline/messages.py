@@ -27,9 +27,9 @@ def joint_state_fields(stamp: Stamp, values: Mapping[str, float]) -> Fields:
     return {'header': header, 'name': list(values), 'position': list(values.values())}
 
 
-def contact_fields(stamp: Stamp, x: float, y: float, theta: float) -> Fields:
-    """Return the fields of a PoseStamped: the contact point [m] and theta [rad]."""
-    return {'header': _header(stamp, FINGER_DISK), 'pose': _pose(x, y, theta)}
+def pose_fields(stamp: Stamp, x: float, y: float, yaw: float) -> Fields:
+    """Return the fields of a PoseStamped in `finger_disk`: a point [m] and an angle [rad]."""
+    return {'header': _header(stamp, FINGER_DISK), 'pose': _pose(x, y, yaw)}
 
 
 def command_fields(stamp: Stamp, v_x: float) -> Fields:
@@ -39,10 +39,8 @@ def command_fields(stamp: Stamp, v_x: float) -> Fields:
 
 def object_pose_fields(stamp: Stamp, pose: Array, covariance: Array) -> Fields:
     """Return the fields of a PoseWithCovarianceStamped: x, y [m] and angle [rad] of the object."""
-    uncertain = {
-        'pose': _pose(*pose.tolist()),
-        'covariance': covariance_in_space(covariance.tolist()),
-    }
+    in_space = covariance_in_space(covariance.tolist())
+    uncertain = {'pose': _pose(*pose.tolist()), 'covariance': in_space}
     return {'header': _header(stamp, FINGER_DISK), 'pose': uncertain}
 
 

@@ -16,10 +16,8 @@ def by_name(names: Sequence[str], positions: Sequence[float]) -> dict[str, float
 
     Parameters
     ----------
-    names : sequence of str
-        Names.
-    positions : sequence of float
-        Positions in the order of the names.
+    names, positions : sequence of str, sequence of float
+        Names and their positions.
 
     Returns
     -------

@@ -73,26 +73,19 @@ class Sensing:
         self._seconds = seconds
 
     def state(self, stamp: Stamp, names: Sequence[str], positions: Sequence[float]) -> Sensed:
-        """Take a message of `push_controller/state`.
+        """Take a message of `push_controller/state`; ValueError if it is no control period.
 
         Parameters
         ----------
         stamp : tuple of int
             When the control period began [s, ns].
-        names : sequence of str
-            Names.
-        positions : sequence of float
-            Values in the order of the names.
+        names, positions : sequence of str, sequence of float
+            Names and their values.
 
         Returns
         -------
         Sensed
             What is known then.
-
-        Raises
-        ------
-        ValueError
-            If a number is missing or impossible.
         """
         return self.tick(stamp, tick_of(by_name(names, positions)))
 
@@ -101,10 +94,8 @@ class Sensing:
 
         Parameters
         ----------
-        stamp : tuple of int
-            When it began [s, ns].
-        tick : Tick
-            What the controller used and gave.
+        stamp, tick : tuple of int, Tick
+            When it began [s, ns], and what the controller used and gave.
 
         Returns
         -------

@@ -26,30 +26,19 @@ from tactile_push.report.visible import frame_times, held, visible
 DEGREES, MILLIMETRES, SECONDS = 180.0 / math.pi, 1e3, 1.0
 
 # What a report shows against time, if the bag has it: factor from SI, offset and decimals.
+LENGTHS = ('v_x', 'v_x_true', 'd', 'd_lower', 'd_upper', 'd_least', 'd_most', 'd_true')
 SERIES = {
-    'theta': (DEGREES, 0.0, 3),
-    'theta_desired': (DEGREES, 0.0, 3),
+    **dict.fromkeys(('theta', 'theta_desired'), (DEGREES, 0.0, 3)),
     'phi': (DEGREES, -90.0, 3),
-    'v_x': (MILLIMETRES, 0.0, 4),
-    'v_x_true': (MILLIMETRES, 0.0, 4),
-    'd': (MILLIMETRES, 0.0, 4),
-    'd_lower': (MILLIMETRES, 0.0, 4),
-    'd_upper': (MILLIMETRES, 0.0, 4),
-    'd_least': (MILLIMETRES, 0.0, 4),
-    'd_most': (MILLIMETRES, 0.0, 4),
-    'd_true': (MILLIMETRES, 0.0, 4),
-    'silence': (SECONDS, 0.0, 4),
-    'interval': (SECONDS, 0.0, 4),
+    **dict.fromkeys(LENGTHS, (MILLIMETRES, 0.0, 4)),  # and lengths a second
+    **dict.fromkeys(('silence', 'interval'), (SECONDS, 0.0, 4)),
 }
 # What only the view from above shows.
 VIEWED = {
-    'object_x': (MILLIMETRES, 0.0, 3),
-    'object_y': (MILLIMETRES, 0.0, 3),
+    **dict.fromkeys(('object_x', 'object_y'), (MILLIMETRES, 0.0, 3)),
     'object_angle': (DEGREES, 0.0, 3),
-    'estimate_x': (MILLIMETRES, 0.0, 3),
-    'estimate_y': (MILLIMETRES, 0.0, 3),
-    'finger_x': (MILLIMETRES, 0.0, 2),
-    'belt_travel': (MILLIMETRES, 0.0, 2),
+    **dict.fromkeys(('estimate_x', 'estimate_y'), (MILLIMETRES, 0.0, 3)),
+    **dict.fromkeys(('finger_x', 'belt_travel'), (MILLIMETRES, 0.0, 2)),
     'state': (1.0, 0.0, 0),
 }
 UNSEEN = 1e-3  # gap between two episodes in the plot, relative to the duration

@@ -15,9 +15,9 @@ from rosbags.typesys import Stores, get_typestore
 from tactile_push.bags import schema_text
 from tactile_push.pipeline.messages import (
     command_fields,
-    contact_fields,
     joint_state_fields,
     object_pose_fields,
+    pose_fields,
 )
 from tactile_push.replay.new_bag import encoder
 
@@ -161,7 +161,7 @@ def test_uncertain_pose_is_written_as_ros_writes_it():
     ('type_name', 'fields'),
     [
         (JOINT_STATE, joint_state_fields((-7, 8), {'theta': 0.25, 'ä': math.nan, '': math.inf})),
-        (POSE, contact_fields((7, 8), 0.1, -0.2, 0.3)),
+        (POSE, pose_fields((7, 8), 0.1, -0.2, 0.3)),
         (TWIST, command_fields((7, 8), 0.002)),
         (UNCERTAIN_POSE, object_pose_fields((7, 8), np.array([0.1, 0.2, 3.0]), np.eye(3))),
     ],
