@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Bounds on what the finger is told, and on what the controller believes."""
+"""Bounds on the commands to the finger, and on what the controller believes."""
 
 import math
 from dataclasses import dataclass
@@ -73,7 +73,7 @@ class Limits:
         return min(max(bounded, before - change), before + change)
 
     def inward(self, wanted: float, x: float) -> float:
-        """Take away what would move the finger further out of its workspace.
+        """Return 0 for a velocity that would move the finger further out of its workspace.
 
         Parameters
         ----------

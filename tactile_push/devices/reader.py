@@ -17,7 +17,7 @@ RELEASE_TIME = 0.2  # in which a device is let go of, if pyserial does not block
 
 
 class Condition(enum.Enum):
-    """How the sensor does; the value says it in a few words."""
+    """The state of the sensor, in a few words."""
 
     INACTIVE = 'inactive'
     NOT_THERE = 'device not there'
@@ -95,7 +95,7 @@ class SensorReader:
             self._thread = None
 
     def condition(self, patience: float) -> Condition:
-        """Judge how the sensor does; what does not come for `patience` [s] is missing."""
+        """Return the sensor's state; what has not come for `patience` [s] counts as missing."""
         now = time.monotonic()
 
         def recent(moment: float | None) -> bool:

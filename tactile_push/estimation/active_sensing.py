@@ -7,14 +7,14 @@ import math
 from tactile_push.estimation.finger_motion import FingerMotion
 from tactile_push.estimation.object_estimator import Estimator, ObjectEstimate
 
-# Why everything was forgotten.
+# Reasons to forget everything.
 CONTACT_LOST = 'contact lost'
 MOTION_UNKNOWN = 'the finger moved unknown to the controller'
 TICKS_MISSING = 'ticks missing'
 TIME_WENT_BACK = 'time went back'
 
 SAME_STAMP = 1e-6  # in which two stamps are the same [s]
-FASTEST = 1.0  # a finger that is said to be faster moves in a way that is not known [m/s]
+FASTEST = 1.0  # a faster command counts as an unknown motion [m/s]
 
 
 class ActiveSensing:
@@ -70,7 +70,7 @@ class ActiveSensing:
         Parameters
         ----------
         stamp : float
-            When it was [s].
+            Time of the tick [s].
         theta : float
             Last reading of the edge's angle [rad]; NaN if there is none.
         silence : float

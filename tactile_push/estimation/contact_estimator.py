@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Where on the edge the finger is, from the first push on (Section III, and past it)."""
+"""Where on the edge the finger is, from the first push on (Section III, and beyond it)."""
 
 import math
 from dataclasses import dataclass, replace
@@ -50,7 +50,7 @@ class Estimate:
 
 
 class ContactEstimator:
-    """Follows theta, and with it everything that it depends on (Section III, and past it).
+    """Follows theta, and with it everything that it depends on (Section III, and beyond it).
 
     Every push is informative, not only those of a translating object: omega depends on d, c, mu_c
     and l. A bank of Gaussian hypotheses (`hypotheses`) gives the mean and the 95 % interval; cells

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """When readings contradict the model, and why.
 
-Three explanations that need no object compete with the model: the edge stands still, it turns just
-anyhow, or each reading is anywhere. A cumulative sum per explanation (Page's test) adds up by how
-much the logarithm of its probability density is above the model's, and starts again whenever it
-falls below 0, so it is about the last readings however long the push has been. As long as the
+Three explanations that need no object compete with the model: the edge stands still, it turns
+arbitrarily, or each reading is anywhere. A cumulative sum per explanation (Page's test) adds up by
+how much the logarithm of its probability density is above the model's, and starts again whenever
+it falls below 0, so it is about the last readings however long the push has been. As long as the
 model is right, a sum rises above h less than once in exp(h) readings. Sums leak, so that a tiny
 advantage over very long times says nothing.
 
@@ -24,7 +24,7 @@ SURPRISE = 4.0  # mean of squared normalised errors, 1 on average, that contradi
 MOST_SURPRISE = 25.0  # what one reading can add to the surprise
 OFF = 0.95  # share of the hypotheses off the edge that contradicts the model
 NEAR = 6.0  # standard deviations within which readings are the same
-CHANGE = 1.0  # way in which the rate of an edge that turns anyhow becomes another, in l
+CHANGE = 1.0  # way over which the rate of an arbitrarily turning edge changes, in l
 AGAIN = 2  # readings outside `NEAR` in a row that show that an edge turns again
 FEWEST, MOST = 40, 200  # readings that have to agree after a contradiction
 
@@ -132,7 +132,7 @@ class Watch:
                 return ANYWHERE
             if jumps == 1:
                 return JUMPED
-            # An edge that turns anyhow may stand still, too.
+            # An arbitrarily turning edge may also stand still.
             return STILL if still > turning - 1.0 else OTHERWISE
         return NOISY if self.surprise > SURPRISE else ''
 

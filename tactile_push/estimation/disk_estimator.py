@@ -13,14 +13,14 @@ from tactile_push.estimation.pose import object_pose
 from tactile_push.estimation.prior import Prior
 from tactile_push.paper import FINGER_RADIUS
 
-ANY_ORIENTATION = math.tau**2 / 12.0  # variance of the disk's angle, which nothing shows [rad^2]
+ANY_ORIENTATION = math.tau**2 / 12.0  # variance of the disk's angle, unknown [rad^2]
 
 
 class DiskEstimator(Estimator):
     """Follows the contact with a disk about its centre of mass.
 
-    The tangent at the contact is the edge, so d is 0. theta tells where the disk is; how theta
-    changes tells of c and mu_c.
+    The tangent at the contact is the edge, so d is 0. theta determines where the disk is; how
+    theta changes depends on c and mu_c.
 
     Parameters
     ----------

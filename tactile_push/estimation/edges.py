@@ -82,7 +82,7 @@ def edges_of(vertices: npt.ArrayLike) -> tuple[Edge, ...]:
     Raises
     ------
     ValueError
-        If they are no such corners, or the centre of mass is not inside.
+        If the corners are not of this kind, or the centre of mass is not inside.
     """
     outline = Outline.polygon(vertices)
     corners = np.asarray(vertices, dtype=float)

@@ -57,7 +57,7 @@ class FingerMotion:
         self._commands.append((time + self.delay, velocity))
 
     def way(self, time: float) -> float:
-        """Return how far the finger moves from where it was last asked for to a later moment.
+        """Return how far the finger moves from the last moment asked for to a later one.
 
         Parameters
         ----------

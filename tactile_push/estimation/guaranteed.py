@@ -49,7 +49,7 @@ class ModelBounds:
 
 
 class GuaranteedSet:
-    """All that cannot be excluded of one object, as cells."""
+    """Everything about one object that cannot be excluded, as cells."""
 
     def __init__(
         self,

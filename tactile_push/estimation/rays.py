@@ -10,7 +10,7 @@ import numpy as np
 
 from tactile_push.mechanics.compiled import Array
 
-PARALLEL = 10.0  # standard deviations of the angle between rays that tell them apart
+PARALLEL = 10.0  # rays cross at angles of more than so many standard deviations
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class Intersection:
 
 
 class ParallelRaysError(ValueError):
-    """The rays are too near to parallel to tell where they meet."""
+    """The rays are too nearly parallel to determine where they meet."""
 
 
 def intersect_rays(rays: Sequence[Ray]) -> Intersection:
@@ -71,7 +71,7 @@ def intersect_rays(rays: Sequence[Ray]) -> Intersection:
 
     A ray at (x_i, y_i) with the direction a_i says sin(a_i) (x - x_i) - cos(a_i) (y - y_i) = 0, to
     within its contact's error and its angle's times the distance. That distance follows from
-    the intersection, so the weights are found by repetition.
+    the intersection, so the weights are found by iteration.
 
     Parameters
     ----------

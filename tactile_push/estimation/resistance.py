@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""How an object turns whose limit surface is no ellipsoid.
+"""How an object turns if its limit surface is not an ellipsoid.
 
 c^2 is (m/f)/(omega/|v|), force and motion being those at the centre of mass: one number on an
 ellipsoid. Under any pressure it is the second moment of the load along the direction in which the
 centre of mass moves, as long as the object hardly turns. The more it turns for its way the larger
-c^2 becomes, and when it spins c^2 has an end.
+c^2 becomes, up to a limit when it only spins.
 """
 
 import math
@@ -79,7 +79,7 @@ def settled(
     sin_alpha: float,
     pressure: Pressure,
 ) -> tuple[float, float, float]:
-    """Find the c^2 [m^2] with which a push moves the object so that this is its c^2.
+    """Find the c^2 [m^2] that fits the motion which it causes under a push.
 
     omega = A/(c^2 + B) with A and B of (11) for a sticking contact, and of (13) and (15) for one
     that slips, where the centre of mass moves as the force acts. Arguments are those of

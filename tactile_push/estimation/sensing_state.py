@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What active sensing tells after one control period, as numbers with names."""
+"""What active sensing knows after one control period, as numbers with names."""
 
 import math
 
@@ -17,13 +17,12 @@ def sensing_values(estimate: ObjectEstimate, sensing: ActiveSensing) -> dict[str
     estimate : ObjectEstimate
         What is known of the object.
     sensing : ActiveSensing
-        Who found it out.
+        The active sensing, after the control period.
 
     Returns
     -------
     dict of str to float
-        The numbers by name, SI units. The middle of what nothing is known of is NaN; the bounds
-        are those from before any data then.
+        The numbers by name, SI units. Unknown means are NaN; bounds are then the prior's.
     """
     known = sensing.readings > 0 and not estimate.contradiction
     values = {}
@@ -53,7 +52,7 @@ def tells_pose(estimate: ObjectEstimate, sensing: ActiveSensing) -> bool:
     estimate : ObjectEstimate
         What is known of the object.
     sensing : ActiveSensing
-        Who found it out.
+        The active sensing, after the control period.
 
     Returns
     -------

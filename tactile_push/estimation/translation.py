@@ -50,7 +50,7 @@ def bounds_of_translation(
 
     (17) grows with phi - theta all the way from 0 to pi, through pi/2 too, so the ends of the
     ranges give those of d. The paper takes the range of phi - theta itself, which is no wider:
-    give it as `phi` with 0 for both of `theta`.
+    pass it as `phi` with 0 for both of `theta`.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def bounds_of_translation(
     Raises
     ------
     ValueError
-        If a range is none, or the finger may not move into the object.
+        If a range is reversed, or the finger may not move into the object.
     """
     for name, (least, most) in (('theta', theta), ('phi', phi)):
         if not least <= most:

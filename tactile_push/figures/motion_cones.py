@@ -113,7 +113,7 @@ def _draw_cone(axes: Axes, d: float, mu_c: float, c: float) -> None:
 def _draw_arrow(
     axes: Axes, start: tuple[float, float], direction: float, length: float, **style: Any
 ) -> tuple[float, float]:
-    """Draw an arrow into a direction [deg] and give its tip."""
+    """Draw an arrow into a direction [deg] and return its tip."""
     angle = math.radians(direction)
     tip = start[0] + length * math.cos(angle), start[1] + length * math.sin(angle)
     axes.annotate(
@@ -133,7 +133,7 @@ def _draw_arrow(
 
 
 def _draw_notes(axes: Axes) -> None:
-    """Mark the two effects that nobody expects."""
+    """Mark the two unexpected effects."""
     y = -CENTIMETRE * SIDE / 2.0
     for number, d, direction, style in (
         ('1', CONTACTS[-1], RAY, {'linestyle': (0, (4, 2))}),

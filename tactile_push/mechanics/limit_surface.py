@@ -107,7 +107,7 @@ class EllipsoidalLimitSurface:
         Raises
         ------
         ValueError
-            If the twist is zero: a resting object does not tell its wrench.
+            If the twist is zero: a resting object does not determine its wrench.
         """
         v_x, v_y, omega = np.asarray(twist, dtype=float)
         direction = np.array([v_x, v_y, self.c**2 * omega])
@@ -171,7 +171,7 @@ class ExactLimitSurface:
         Raises
         ------
         ValueError
-            If the twist is zero: a resting object does not tell its wrench.
+            If the twist is zero: a resting object does not determine its wrench.
         """
         v_x, v_y, omega = np.asarray(twist, dtype=float)
         if not (v_x or v_y or omega):

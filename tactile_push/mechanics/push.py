@@ -26,7 +26,7 @@ from tactile_push.mechanics.exact_motion import exact_pushed_twist
 from tactile_push.mechanics.motion import FREE, pushed_twist
 
 TOLERANCE = 1e-7  # estimated error of a step, of the angle [rad] and of sigma by the path's radius
-SMOOTH_SHARE = 0.03  # weight of the estimate of order 2 where nothing tells of a kink
+SMOOTH_SHARE = 0.03  # weight of the estimate of order 2 where there is no sign of a kink
 SMALLEST_STEP = 1e-9  # of the push; how finely the end of contact is located
 
 

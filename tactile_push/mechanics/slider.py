@@ -127,7 +127,7 @@ class Slider:
         mu_c: float,
         r: float,
     ) -> Pose:
-        """Predict where a finger leaves the object that moves straight from one place to another.
+        """Predict where the object ends when a finger moves straight from one place to another.
 
         Parameters
         ----------

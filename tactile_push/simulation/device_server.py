@@ -15,7 +15,7 @@ class DeviceServer(Protocol):
     """Something that a sensor driver can open and that sends it bytes."""
 
     def send(self, data: bytes) -> None:
-        """Send bytes to whoever listens; drop them if nobody does or if he does not keep up."""
+        """Send bytes to all listeners; a listener that does not keep up loses some."""
 
     def close(self) -> None:
         """Stop serving."""

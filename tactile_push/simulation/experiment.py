@@ -90,7 +90,7 @@ def experiment(
     control = Control(push, config.finger, JOINTS, seconds)
 
     def feel(stamp: Stamp) -> None:
-        """Read joints and sensor, and give the controller the contacts that follow."""
+        """Read joints and sensor, and pass the contacts found to the controller."""
         joints = rig.joints
         geometry.joint_states(stamp, JOINTS, joints)
         control.joint_states(stamp, JOINTS, joints)

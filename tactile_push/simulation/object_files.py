@@ -40,7 +40,7 @@ def read_object(file: Path) -> tuple[Outline, tuple[float, float] | None]:
     OSError
         If the file cannot be read.
     ValueError
-        If it is no such file or the outline is not convex.
+        If the file has another form or the outline is not convex.
     """
     content = _read(file)
     outline = content.get('outline')
@@ -81,7 +81,7 @@ def read_support(file: Path) -> Support:
     OSError
         If the file cannot be read.
     ValueError
-        If it is no such file.
+        If the file has another form.
     """
     content = _read(file)
     if 'points' not in content:
@@ -126,7 +126,7 @@ def _are_pairs(value: Any) -> bool:
 
 
 def _checked(name: str, value: Any, form: Form) -> Any:
-    """Refuse what has another form than numbers or lists of them."""
+    """Return a value that has the form; refuse any other."""
     fits, what = form
     if not fits(value):
         raise ValueError(f'{name}: expected {what}, got {reprlib.repr(value)}')

@@ -209,7 +209,7 @@ class Rig:
 
     @property
     def _friction_cone(self) -> tuple[float, float]:
-        """The friction cone at the contact, as `friction_cone` gives it."""
+        """The friction cone at the contact, as `friction_cone` returns it."""
         return friction_cone(self.faults.friction.mu_c(self.config.mu_c, self.sigma))
 
     @property

@@ -87,7 +87,7 @@ class Rollout:
         How the contact moved in period k, an index of `MODES`: at the end of the period; the last
         one is that of the period before it.
     end : str
-        Why it ended: 'done', or the reason for which there is no contact any more.
+        Why it ended: 'done', or why contact was lost.
     """
 
     theta: Array
@@ -114,7 +114,7 @@ def _record(
 def _left_behind(
     angle: float, sigma: float, v_x: float, v_y: float, rest: float, path: Array, r: float
 ) -> tuple[float, bool]:
-    """Move a finger on that no longer pushes: where it is nearest, and whether it is gone."""
+    """Move on a finger that no longer pushes; return where it is nearest and whether it is gone."""
     _, _, d, l = contact(sigma, piece_at(sigma, path), path, r)
     x, y = reach(angle + tangent_angle(sigma, path), d, l, r)
     sigma, gap = clearance(Pose(-x, -y, angle), v_x * rest, v_y * rest, path, r)
@@ -233,7 +233,7 @@ def rollout(
     Parameters
     ----------
     config : RigConfig
-        The object, the belt and where they start; the finger goes where it is told.
+        The object, the belt and where they start; the finger follows its commands.
     law : PushLaw or array_like, shape () or (steps,)
         The control law, which is not changed and starts as after a reset to its present push
         angle, or the push angles themselves [rad], each in (0, pi).
@@ -300,7 +300,7 @@ def rollout(
 
 
 def check_time(steps: int, period: float) -> None:
-    """Refuse a negative number of steps and a period that is none."""
+    """Refuse a negative number of steps or a period that is not positive."""
     if not steps >= 0:
         raise ValueError(f'steps: expected a whole number of 0 or more, got {steps}')
     if not (math.isfinite(period) and period > 0.0):

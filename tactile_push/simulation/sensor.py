@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""A sensor that errs (Section V.D): what it reads, what it sends, and when that comes out."""
+"""A sensor that errs (Section V.D): what it reads, what it sends, and when."""
 
 import math
 from collections import deque
@@ -80,8 +80,8 @@ class Sample:
 class Readout:
     """What comes out of a sensor, and when.
 
-    Each kind of error that chance decides has a random stream of its own: to switch one on does
-    not change the others. The same seed gives the same run, to the bit.
+    Each kind of random error has its own random stream, so switching one on does not change the
+    others. The same seed makes the same run, to the bit.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""From readings and joint angles to contacts; readings that tell of none are refused."""
+"""From readings and joint angles to contacts; readings without a contact are refused."""
 
 import math
 from collections.abc import Iterable
@@ -11,7 +11,7 @@ from tactile_push.tactile.planar_finger import pole_angle
 from tactile_push.tactile.pole_history import BELIEVED, PoleHistory
 from tactile_push.tactile.reading import Reading
 
-REFUSALS = (  # the reasons by which readings are refused; '' for none
+REFUSALS = (  # why a reading is refused; '' if it is not
     '',
     'not newer',
     'no joint state',
@@ -28,14 +28,14 @@ REFUSALS = (  # the reasons by which readings are refused; '' for none
 
 
 class ContactFinder:
-    """Finds the contact that each reading tells of, and refuses readings that tell of none.
+    """Finds the contact of each reading, and refuses readings without one.
 
     It has no clock: the same stamps and numbers in the same order give the same contacts.
 
     The stamps of readings should increase. A reading that is not newer than the last one came late
     or twice and is refused, so the contacts' stamps increase strictly. `BELIEVED` readings in a row
     that are not newer than the last one, but each newer than the one before it, mean that the clock
-    was set back: the last of them counts as a first reading. A reading that is repeated never does.
+    was set back: the last of them counts as a first reading. A repeated reading never does.
     Later readings are not compared with one that was refused for its joint state, so a single stamp
     far in the future does not stop them if the finger turns.
 
@@ -69,7 +69,7 @@ class ContactFinder:
         turn.
     joint_angle : float
         By how far the joints had turned the tip at the moment of the last reading [rad]; NaN if
-        that was not looked at or not known.
+        unknown or not needed.
     """
 
     def __init__(
@@ -106,13 +106,13 @@ class ContactFinder:
         Returns
         -------
         bool
-            Whether they are of use: False if one is not finite, if they are not newer than those
+            Whether they were taken: False if one is not finite, if they are not newer than those
             before, or if the finger tip does not turn.
         """
         return self.pole is not None and self.pole.record(stamp, pole_angle(0.0, angles))
 
     def contact(self, reading: Reading, stamp: float, joint_angle: float | None = None) -> Contact:
-        """Find the contact that a reading tells of.
+        """Find the contact of a reading.
 
         Parameters
         ----------
@@ -121,8 +121,8 @@ class ContactFinder:
         stamp : float
             When the sensor was read [s].
         joint_angle : float, optional
-            By how far the joints had turned the tip then [rad], if it is known otherwise than
-            through `joints`; NaN if it is known that nobody knew.
+            By how far the joints had turned the tip then [rad], if the caller knows it;
+            NaN if nobody knew it.
 
         Returns
         -------
@@ -132,7 +132,7 @@ class ContactFinder:
         Raises
         ------
         ReadingRejectedError
-            If there is none to trust. The message is the reason, one of `REFUSALS`.
+            If no contact can be trusted. The message is the reason, one of `REFUSALS`.
         """
         self.joint_angle = math.nan
         self._check_order(stamp)

@@ -36,7 +36,7 @@ def contact_of_reading(
     max_out_of_plane: float,
     detectable_range: float = math.pi / 2.0,
 ) -> Contact:
-    """Find the contact that a reading tells of.
+    """Compute the contact from a reading.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Tells the sensor's occasional errors (Section V.D) from what a finger can feel.
+"""Separates the sensor's occasional errors (Section V.D) from what a finger can feel.
 
 How fast can theta turn? Let v be the speed of the finger on the belt, the object's limit surface
 the ellipsoid with c, f the unit vector of the pushing force, x_c the contact from the centre of
@@ -38,7 +38,7 @@ JUMP_TOLERANCE = 0.08  # [rad]
 
 
 class JumpGuard:
-    """Refuses a theta that no finger can come to feel in the time since the last one.
+    """Refuses a theta that the finger cannot have come to feel since the last one.
 
     The first theta is accepted. One further from the last accepted than
     `tolerance + max_rate * (time between)` is refused, unless it is the last of `BELIEVED` in a

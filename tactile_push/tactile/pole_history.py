@@ -7,7 +7,7 @@ from bisect import bisect_left, bisect_right
 
 from tactile_push.tactile.hemisphere import ReadingRejectedError, normalized_angle
 
-BELIEVED = 3  # so many in a row that agree are no accident
+BELIEVED = 3  # so many agreeing values in a row are no accident
 
 
 class PoleHistory:

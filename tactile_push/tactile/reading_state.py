@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What became of a reading as numbers with names, as it is published and recorded."""
+"""The fate of a reading as numbers with names, as it is published and recorded."""
 
 from tactile_push.tactile.contact_finder import REFUSALS
 from tactile_push.tactile.reading import Reading
