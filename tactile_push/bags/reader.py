@@ -38,12 +38,10 @@ class Topic:
 
     Parameters
     ----------
-    name : str
-        Full name.
-    type_name : str
-        Message type, such as ``'sensor_msgs/msg/JointState'``.
+    name, type_name : str
+        Full name, and message type such as ``'sensor_msgs/msg/JointState'``.
     definition : str
-        Text of the schema: the type's definition with those of all its batches.
+        Text of the schema: the type's definition with those of all its parts.
     qos : tuple of dict
         Quality of service that each publisher offered, in the words of rosbag2.
     type_hash : str
@@ -151,11 +149,7 @@ class BagReader:
         -------
         iterator of Message
             The messages, read as they are asked for; at equal times in the order of the bag.
-
-        Raises
-        ------
-        BagError
-            If a file can no longer be read.
+            BagError is raised then if a file can no longer be read.
         """
         start = 0 if start is None else start
         end = 2**64 if end is None else end
@@ -177,7 +171,7 @@ class BagReader:
             self._close()
 
     def decode(self, message: Message) -> Any:
-        """Decode a message by the schema in the bag.
+        """Decode a message by the schema in the bag; BagError if it does not decode.
 
         Parameters
         ----------
@@ -188,11 +182,6 @@ class BagReader:
         -------
         object
             With the fields of the message as attributes.
-
-        Raises
-        ------
-        BagError
-            If it does not decode.
         """
         decoder = self._decoders.get(message.topic) or self._make_decoder(message.topic)
         try:
@@ -205,11 +194,9 @@ class BagReader:
             ) from None
 
     def __enter__(self) -> 'BagReader':
-        """Return the bag, which is closed at the end of the block."""
         return self
 
     def __exit__(self, *exc_info: object) -> None:
-        """Close the files."""
         self._close()
 
     def _close(self) -> None:

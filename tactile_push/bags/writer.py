@@ -135,10 +135,8 @@ class BagWriter:
 
         Parameters
         ----------
-        name : str
-            Full name of the topic, such as ``'/tactile'``.
-        type_name : str
-            Message type, such as ``'sensor_msgs/msg/JointState'``.
+        name, type_name : str
+            Full name, such as ``'/tactile'``, and type, such as ``'sensor_msgs/msg/JointState'``.
         qos : sequence of mappings, optional
             One quality of service for each publisher of the topic, with the keys and words of
             rosbag2 (``history: keep_last``, …). A player takes its own default where there is
@@ -193,10 +191,8 @@ class BagWriter:
 
         Parameters
         ----------
-        key : str
-            What it is about; a later note of the same key replaces this one.
-        text : str
-            The text.
+        key, text : str
+            What it is about, and the text; a later note of the same key replaces this one.
         """
         if self._closed:
             raise ValueError('the bag is closed')
@@ -226,7 +222,6 @@ class BagWriter:
             write_whole(self._directory / 'metadata.yaml', text)
 
     def __enter__(self) -> 'BagWriter':
-        """Return the bag, which is closed at the end of the block."""
         return self
 
     def __exit__(self, *exc_info: object) -> None:

@@ -39,23 +39,9 @@ def add(commands: Commands) -> None:
         'as /push_controller/state:theta=1e-9; inf leaves a field out; may be repeated '
         '(default: 0, exactly equal)',
     )
-    option(
-        '--topics',
-        type=topic,
-        nargs='+',
-        action='extend',
-        metavar='TOPIC',
-        help='topics to compare (default: all)',
-    )
-    option(
-        '--ignore',
-        type=topic,
-        nargs='+',
-        action='extend',
-        default=[],
-        metavar='TOPIC',
-        help='topics not to compare',
-    )
+    topics: dict[str, Any] = {'type': topic, 'nargs': '+', 'action': 'extend', 'metavar': 'TOPIC'}
+    option('--topics', **topics, help='topics to compare (default: all)')
+    option('--ignore', **topics, default=[], help='topics not to compare')
     option('--times', action='store_true', help='compare log and publish times, too')
     option('--json', action='store_true', help='print one JSON object, SI units')
     diff.set_defaults(run=_diff)
@@ -76,16 +62,10 @@ def _diff(options: argparse.Namespace) -> int:
             for topic, count in bag.counts.items()
             if topic in (options.topics or bag.counts) and topic not in options.ignore
         )
+        tolerances = Tolerances(general[-1] if general else 0.0, special)
+        chosen = {name: getattr(options, name) for name in ('topics', 'ignore', 'times')}
         with reading(messages) as progress:
-            results = diff(
-                a,
-                b,
-                tolerances=Tolerances(general[-1] if general else 0.0, special),
-                topics=options.topics,
-                ignore=options.ignore,
-                times=options.times,
-                progress=progress,
-            )
+            results = diff(a, b, tolerances=tolerances, **chosen, progress=progress)
     if options.json:
         print(json.dumps(_as_json(options, results), indent=2))
     else:

@@ -61,12 +61,8 @@ class PushController(ManagedNode):
         except ValueError as error:
             raise ConfigurationError(f'parameter {error}') from None
         self._time = NodeTime(self)
-        self._steps = Control(
-            self._control,
-            make_finger(self._settings),
-            self._settings.joint_names,
-            self._time.seconds,
-        )
+        finger, joint_names = make_finger(self._settings), self._settings.joint_names
+        self._steps = Control(self._control, finger, joint_names, self._time.seconds)
         self._timer: Timer | None = None
         self._tick: Tick | None = None
         self._ticked_at = -math.inf  # on the steady clock [s]
@@ -76,14 +72,10 @@ class PushController(ManagedNode):
         self._due: Time | None = None  # of a tick that waits for contacts to be heard
         self._contacts_before = 0  # heard until this node last looked whether more have arrived
         self._heard_all = self.create_guard_condition(self._after_hearing)
+        longest = Duration(seconds=self._control.period * (self._settings.max_ticks_lost + 1))
+        jump = JumpThreshold(min_forward=longest, min_backward=Duration(nanoseconds=-1))
         self._jump_handle = self.get_clock().create_jump_callback(
-            JumpThreshold(
-                min_forward=Duration(
-                    seconds=self._control.period * (self._settings.max_ticks_lost + 1)
-                ),
-                min_backward=Duration(nanoseconds=-1),
-            ),
-            post_callback=self._on_clock_jump,
+            jump, post_callback=self._on_clock_jump
         )
         self.create_service(Trigger, RESUME, self._on_resume)
         self._diagnostics = Diagnostics(self, self._health, self._counts)

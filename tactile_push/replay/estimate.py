@@ -50,14 +50,10 @@ def estimate(
     ----------
     bag : BagReader
         The bag, with `push_controller/state` of at least one finger.
-    config : path, optional
-        ROS parameter file with values for `active_sensing` to use instead of the recorded ones.
     sensing : mapping of str to object, optional
-        Values of its parameters to use instead.
-    out : path, optional
-        Folder of the bag to write, not there yet.
-    progress : callable, optional
-        Called with the number of messages read so far.
+        Values of parameters of `active_sensing` to use instead of the recorded ones.
+    config, out, progress : optional
+        As for `tactile_push.replay.replay`; of the file only `active_sensing` counts.
 
     Returns
     -------
@@ -68,10 +64,8 @@ def estimate(
     ------
     BagError
         If there are no control periods or the bag cannot be read.
-    ValueError
-        If a value of a parameter is refused.
-    OSError
-        If a file cannot be read, or the new bag cannot be written.
+    ValueError, OSError
+        As for `tactile_push.replay.replay`.
     """
     namespaces = list(fingers_of(bag, [CONTROLLER_STATE], INPUTS))
     if not namespaces:

@@ -24,16 +24,11 @@ REPLAYED = (CONTACT_GEOMETRY, PUSH_CONTROLLER, ACTIVE_SENSING)
 NODES = {node: PARAMETERS[node].declared() for node in REPLAYED}
 # Parameters of active_sensing that other nodes of the finger have, too.
 KNOWN_TO = {'belt_speed': PUSH_CONTROLLER, 'finger_radius': CONTACT_GEOMETRY}
+LINKS = ('proximal_length', 'distal_length', 'mount_angle')
 # Parameters whose effect is in the node's recorded state: when it ticked, where the finger was.
 RECORDED_EFFECT = {
     CONTACT_GEOMETRY: {'joint_names'},
-    PUSH_CONTROLLER: {
-        'control_rate',
-        'joint_names',
-        'proximal_length',
-        'distal_length',
-        'mount_angle',
-    },
+    PUSH_CONTROLLER: {'control_rate', 'joint_names', *LINKS},
 }
 OF_EVERY_NODE = 'use_sim_time'  # without effect here: all times are the bag's
 OF_OUTLINE = ('disk_radius', 'edge')  # go with the outline, so another outline replaces them

@@ -18,7 +18,7 @@ from tactile_push.nodes.push_controller import PushController
 from tactile_push.nodes.ros.diagnostics import ERROR, OK
 from tactile_push.nodes.ros.messages import filled, stamp_of
 from tactile_push.nodes.ros.parameters import ConfigurationError
-from tactile_push.pipeline.messages import contact_fields
+from tactile_push.pipeline.messages import pose_fields
 
 RATE = {'control_rate': 50.0, 'max_ticks_lost': 100}
 
@@ -28,7 +28,7 @@ def feel(bench, publisher, theta):
 
     def publish():
         stamp = bench.peer.get_clock().now().to_msg()
-        fields = contact_fields((stamp.sec, stamp.nanosec), 0.0, 0.0135, theta)
+        fields = pose_fields((stamp.sec, stamp.nanosec), 0.0, 0.0135, theta)
         publisher.publish(filled(PoseStamped(), fields))
 
     return publish

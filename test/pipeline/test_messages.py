@@ -33,7 +33,7 @@ def test_joint_state_has_names_and_positions_in_the_given_order():
     ],
 )
 def test_contact_is_a_pose_turned_about_z_in_the_frame_of_the_finger(theta, z, w):
-    fields = messages.contact_fields(STAMP, 0.1, -0.2, theta)
+    fields = messages.pose_fields(STAMP, 0.1, -0.2, theta)
     assert fields['header'] == header('finger_disk')
     assert fields['pose']['position'] == {'x': 0.1, 'y': -0.2}
     assert fields['pose']['orientation'] == pytest.approx({'z': z, 'w': w})

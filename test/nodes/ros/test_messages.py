@@ -11,8 +11,8 @@ from sensor_msgs.msg import JointState
 from tactile_push.nodes.ros.messages import filled, publish, stamp_of
 from tactile_push.pipeline.messages import (
     command_fields,
-    contact_fields,
     joint_state_fields,
+    pose_fields,
 )
 
 
@@ -25,7 +25,7 @@ def test_stamp_is_that_of_the_header():
 def test_fields_within_fields_are_set_and_the_others_stay():
     message = PoseStamped()
     message.pose.position.z = 0.5
-    assert filled(message, contact_fields((7, 8), 0.01, -0.02, 0.0)) is message
+    assert filled(message, pose_fields((7, 8), 0.01, -0.02, 0.0)) is message
     assert stamp_of(message) == (7, 8)
     assert message.header.frame_id == 'finger_disk'
     place, turn = message.pose.position, message.pose.orientation
