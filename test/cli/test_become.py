@@ -27,8 +27,12 @@ def test_process_and_exit_status_are_those_of_the_node(tmp_path):
     stand_in.write_text(STAND_IN)
     stand_in.chmod(0o755)
     # Into a pipe, so that what was said before has to be written out first.
+    environment = {k: v for k, v in os.environ.items() if k != 'PYTHONUNBUFFERED'}
     with subprocess.Popen(
-        [sys.executable, '-c', PROGRAM, str(stand_in)], stdout=subprocess.PIPE, text=True
+        [sys.executable, '-c', PROGRAM, str(stand_in)],
+        env=environment,
+        stdout=subprocess.PIPE,
+        text=True,
     ) as process:
         out, _ = process.communicate(timeout=60)
     assert process.returncode == 7
