@@ -52,6 +52,7 @@ class Graph:
         self.executor.add_node(self.node)
         self.executor.add_node(self.listener)
         self.heard = []
+        self.sent = []
         self.expects = False
         self.ended = []
         self.warnings = []
@@ -60,13 +61,19 @@ class Graph:
         self.player = None
 
     def listen(self, message_type, topic, depth=1000, **policies):
-        """Note topic, message and when it came, in the order in which they come."""
+        """Note topic, message and when it came, in the order in which they come.
+
+        Messages of two topics may overtake each other on their way: when they were sent is noted
+        beside it.
+        """
         self.expects = True
+
+        def note(message, info):
+            self.heard.append((topic, message, time.monotonic()))
+            self.sent.append((info['source_timestamp'], topic, message))
+
         self.listener.create_subscription(
-            message_type,
-            topic,
-            lambda message: self.heard.append((topic, message, time.monotonic())),
-            QoSProfile(depth=depth, **policies),
+            message_type, topic, note, QoSProfile(depth=depth, **policies)
         )
 
     def play(self, part, **options):
@@ -143,7 +150,7 @@ def test_clock_says_each_messages_time_before_it_and_never_goes_back(graph, tmp_
     assert told == sorted(told)
     assert graph.numbers() == due(5, 5, 17, 40)
     now = 0
-    for topic, message, _ in graph.heard:
+    for _, topic, message in sorted(graph.sent, key=lambda sent: sent[0]):
         if topic == '/clock':
             now = message.clock.sec * 10**9 + message.clock.nanosec
         else:
