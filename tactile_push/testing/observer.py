@@ -176,9 +176,7 @@ class Observer:
         object
             The response.
         """
-        if service not in self._clients:
-            self._clients[service] = self.node.create_client(service_type, service)
-        client = self._clients[service]
+        client = self._client(service_type, service)
         self.wait_for(client.service_is_ready, f'service {service}', patience)
         future = client.call_async(request)
         self.wait_for(future.done, f'an answer of {service}', patience)
@@ -218,6 +216,11 @@ class Observer:
         parameters = [Parameter(n, value=v).to_parameter_msg() for n, v in values.items()]
         request = SetParameters.Request(parameters=parameters)
         return list(self.call(SetParameters, f'{node}/set_parameters', request).results)
+
+    def _client(self, service_type: Any, service: str) -> Client:
+        if service not in self._clients:
+            self._clients[service] = self.node.create_client(service_type, service)
+        return self._clients[service]
 
 
 def field(message: Any, name: str) -> float:

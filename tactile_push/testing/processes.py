@@ -166,7 +166,7 @@ def yaml_value(value: Any) -> str:
     if isinstance(value, bool):
         return 'true' if value else 'false'
     if isinstance(value, float):
-        text = repr(value)
+        text = repr(float(value))  # of numpy too
         return {'inf': '.inf', '-inf': '-.inf', 'nan': '.nan'}.get(text, text)
     if isinstance(value, str | list):
         return json.dumps(value)  # which YAML reads as it is

@@ -32,10 +32,10 @@ class FaultObserver(Observer):
     """Hears topics, calls services, publishes and waits for conditions."""
 
     def __init__(self, domain: int, name: str = 'fault_table') -> None:
-        super().__init__(domain, name, PATIENCE)
+        super().__init__(domain, name)
         self._publishers: dict[str, Publisher] = {}
 
-    def wait_for(self, condition: Callable[[], M], what: str, patience: float | None = None) -> M:
+    def wait_for(self, condition: Callable[[], M], what: str, patience: float = PATIENCE) -> M:
         """Hear until a condition holds, and return it; it is a broken promise if it never does."""
         try:
             return super().wait_for(condition, what, patience)

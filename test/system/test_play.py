@@ -25,6 +25,7 @@ from std_srvs.srv import SetBool, Trigger
 from tactile_push.bags import BagWriter
 from tactile_push.bags.reader import BagReader
 from tactile_push.control import PUSHING, STATES
+from tactile_push.paper import CONTROL_PERIOD
 from tactile_push.parameters.config_file import config_file
 from tactile_push.recording.recorder import Recorder
 from tactile_push.testing import NodeProcesses, Observer, field, seconds
@@ -116,20 +117,24 @@ def test_readings_and_joints_drive_geometry_and_controller_as_if_live(
         lambda: all(observer.node.count_subscribers(t) >= n for t, n in hearing.items()),
         'all nodes to hear each other',
     )
-    bag = {'bag': str(rig_bag), 'topics': ['tactile', 'joint_states']}
+    live_times, live_v_x, live_updates = pushes(recorded(rig_bag, '/push_controller/state'))
+    # The live controller was activated after the first reading, the played one begins with it.
+    start = max(0.0, live_times[0] - CONTROL_PERIOD - BagReader(rig_bag).start_time * 1e-9)
+    begin = BagReader(rig_bag).start_time + round(start * 1e9)
+    bag = {'bag': str(rig_bag), 'topics': ['tactile', 'joint_states'], 'start': start}
     play = {**bag, 'clock': 100.0, 'rate': rate, 'start_paused': True}
     player = nodes.start('bag_player', play)
-    begin = BagReader(rig_bag).start_time
     observer.wait_for(
-        lambda: {name for name, now in times_of(diagnostics) if now == begin} >= {*DRIVEN},
+        lambda: {name for name, now in times_of(diagnostics) if now >= begin} >= {*DRIVEN},
         'both nodes to have the time from the player',
     )
     assert observer.call(SetBool, 'bag_player/pause', SetBool.Request(data=False)).success
     observer.wait_for(lambda: player.poll() is not None, 'the end of the play')
     assert player.returncode == 0
 
-    # A reading that the bag has before any joint state, nobody can turn into a contact.
-    first = stamp(recorded(rig_bag, '/joint_states')[0])
+    # A reading that is played before any joint state, nobody can turn into a contact.
+    played_from = divmod(begin, 10**9)
+    first = next(s for s in map(stamp, recorded(rig_bag, '/joint_states')) if s >= played_from)
     live = {stamp(m): pose(m) for m in recorded(rig_bag, '/contact') if stamp(m) > first}
     played = {stamp(m): pose(m) for m in contacts}
     assert len(live) > 2 * STEPS
@@ -140,9 +145,8 @@ def test_readings_and_joints_drive_geometry_and_controller_as_if_live(
     assert max(errors) < 1e-4
     assert np.median(errors) == 0.0
 
-    live_times, live_v_x, live_updates = pushes(recorded(rig_bag, '/push_controller/state'))
     times, v_x, updates = pushes(states)
-    # It ticks at moments of its own, and begins with the first reading in the bag, so it may be
+    # It ticks at moments of its own, and begins with the first reading that is played, so it may be
     # ahead or behind by one update of phi for either. An update
     # is kp |theta - theta_desired| at most, of which 30 degrees go on to -10, with 1 / sin(phi)^2
     # < 1.3 from phi to v_x. A tick that a loaded machine loses is one less.

@@ -259,7 +259,8 @@ def test_full_disk_ends_the_recorder_with_one_clear_error(
     assert read == list(range(len(read)))
     assert len(read) > 1000
     (said,) = [line for line in lines if 'recorded at most ' in line]
-    assert int(said.split('at most ')[1].split()[0]) > len(read)  # a chunk did not fit
+    # A chunk did not fit, or what follows it in the file: then all its messages are there.
+    assert int(said.split('at most ')[1].split()[0]) >= len(read)
 
 
 def test_command_records_until_it_is_interrupted(

@@ -12,6 +12,7 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 rclpy = pytest.importorskip('rclpy')
@@ -304,6 +305,10 @@ def test_value_reaches_the_node_as_it_is(as_rcl_reads_them, value):
     read = as_rcl_reads_them(value)
     assert type(read) is type(value)
     assert read == value
+
+
+def test_number_of_numpy_reaches_the_node_as_a_number(as_rcl_reads_them):
+    assert as_rcl_reads_them(np.float64(0.6)) == 0.6
 
 
 def test_nan_reaches_the_node_as_nan(as_rcl_reads_them):
