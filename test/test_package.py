@@ -32,18 +32,20 @@ def test_every_part_imports_only_what_the_contracts_in_pyproject_allow():
 
 
 def test_import_of_the_core_and_the_command_does_not_load_numba_or_ros():
+    parts = ('', *(f'.{part}' for part in (*CORE, 'parameters', 'pipeline', 'cli')))
     loaded = run_python(
         'import json, sys\n'
         'from importlib import import_module\n'
         'loaded = {}\n'
-        "for part in ('', '.tactile', '.control', '.estimation', '.parameters', '.cli'):\n"
+        f'for part in {parts}:\n'
         "    import_module(f'tactile_push{part}')\n"
         "    slow = {'numba', 'rclpy', 'matplotlib'} & set(sys.modules)\n"
         '    loaded[part] = sorted(slow)\n'
         'print(json.dumps(loaded))'
     )
     assert loaded == {
-        part: [] for part in ('', *(f'.{part}' for part in (*CORE, 'parameters', 'cli')))
+        part: []
+        for part in ('', *(f'.{part}' for part in (*CORE, 'parameters', 'pipeline', 'cli')))
     }
 
 

@@ -10,8 +10,10 @@ default value.
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
 from tactile_push.interface import FINGER_BASE, FINGER_DISK
-from tactile_push.mechanics.compiled import Array
 from tactile_push.pipeline.orientation import covariance_in_space, quaternion_of_yaw
 from tactile_push.pipeline.stamps import Stamp
 
@@ -37,7 +39,9 @@ def command_fields(stamp: Stamp, v_x: float) -> Fields:
     return {'header': _header(stamp, FINGER_BASE), 'twist': {'linear': {'x': v_x}}}
 
 
-def object_pose_fields(stamp: Stamp, pose: Array, covariance: Array) -> Fields:
+def object_pose_fields(
+    stamp: Stamp, pose: npt.NDArray[np.float64], covariance: npt.NDArray[np.float64]
+) -> Fields:
     """Return the fields of a PoseWithCovarianceStamped: x, y [m] and angle [rad] of the object."""
     in_space = covariance_in_space(covariance.tolist())
     uncertain = {'pose': _pose(*pose.tolist()), 'covariance': in_space}
