@@ -18,22 +18,28 @@ from tactile_push.estimation.translation import (
 
 if typing.TYPE_CHECKING:
     from tactile_push.estimation.active_sensing import ActiveSensing
+    from tactile_push.estimation.contact_estimator import ContactEstimator, Estimate, Quantity
     from tactile_push.estimation.contradictions import CONTRADICTIONS
     from tactile_push.estimation.disk_estimator import DiskEstimator
     from tactile_push.estimation.edges import Edge, edges_of
     from tactile_push.estimation.object_estimator import ObjectEstimate, ObjectEstimator
+    from tactile_push.estimation.prior import Prior
     from tactile_push.estimation.rays import ParallelRaysError, Ray, intersect_rays
     from tactile_push.estimation.sensing_state import sensing_values, tells_pose
 
 __all__ = [
     'CONTRADICTIONS',
     'ActiveSensing',
+    'ContactEstimator',
     'DiskEstimator',
     'Edge',
+    'Estimate',
     'FingerMotion',
     'ObjectEstimate',
     'ObjectEstimator',
     'ParallelRaysError',
+    'Prior',
+    'Quantity',
     'Ray',
     'bounds_of_translation',
     'centre_on_ray',
@@ -47,10 +53,12 @@ __all__ = [
 
 _COMPILED = {
     'active_sensing': ('ActiveSensing',),
+    'contact_estimator': ('ContactEstimator', 'Estimate', 'Quantity'),
     'contradictions': ('CONTRADICTIONS',),
     'disk_estimator': ('DiskEstimator',),
     'edges': ('Edge', 'edges_of'),
     'object_estimator': ('ObjectEstimate', 'ObjectEstimator'),
+    'prior': ('Prior',),
     'rays': ('ParallelRaysError', 'Ray', 'intersect_rays'),
     'sensing_state': ('sensing_values', 'tells_pose'),
 }

@@ -23,30 +23,57 @@ ANY_THETA = math.pi**2 / 12.0  # variance of a theta of which nothing is known [
 
 @dataclass(frozen=True)
 class Quantity:
-    """What is known of one number."""
+    """What is known of one number.
+
+    Parameters
+    ----------
+    mean, lower, upper : float
+        Mean and 95 % interval.
+    least, most : float
+        Guaranteed bounds.
+    """
 
     mean: float
-    lower: float  # the 95 % interval
+    lower: float
     upper: float
-    least: float  # guaranteed bounds
+    least: float
     most: float
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """What is known at the last reading."""
+    """What is known at the last reading.
 
-    d: Quantity  # contact along the edge [m]
-    # m_max / f_max [m] of the ellipsoid that turns as the object does when it hardly turns, in the
-    # middle between the directions of its motion.
+    Parameters
+    ----------
+    d : Quantity
+        Contact along the edge [m].
+    c : Quantity
+        Ratio m_max / f_max [m] of the ellipsoid that turns as the object does when it hardly turns,
+        in the middle between the directions of its motion.
+    mu_c : Quantity
+        Friction between finger and object; its mean is that of the friction angle.
+    theta : float
+        Angle of the edge without the readings' noise [rad]; NaN before the first reading.
+    covariance : ndarray, shape (4, 4)
+        Covariance of theta, d, l and the radius of the finger's disk [rad, m, m, m].
+    l, radius : float
+        Distance from the edge to the centre of mass, and radius of the finger's disk [m].
+    surprise : float
+        Mean square of the last readings' normalised errors, 1 on average.
+    contradiction : str
+        Why no number is to be believed; empty otherwise. All numbers are the prior's then.
+    """
+
+    d: Quantity
     c: Quantity
-    mu_c: Quantity  # friction between finger and object; its mean is that of the friction angle
-    theta: float  # angle of the edge without the readings' noise [rad]; NaN before the first one
-    covariance: Array  # of theta, d, l and the radius of the finger's disk [rad, m, m, m], (4, 4)
-    l: float  # distance from the edge to the centre of mass [m]
-    radius: float  # of the finger's disk [m]
-    surprise: float  # mean square of the last readings' normalised errors, 1 on average
-    contradiction: str  # why no number is to be believed, all being the prior's then; or empty
+    mu_c: Quantity
+    theta: float
+    covariance: Array
+    l: float
+    radius: float
+    surprise: float
+    contradiction: str
 
 
 class ContactEstimator:
@@ -65,17 +92,37 @@ class ContactEstimator:
 
     `log_evidence` is the logarithm of the probability density of all readings but the first: it
     shows which of several priors, for instance edges of an outline, fits best.
+
+    Parameters
+    ----------
+    prior : Prior
+        What is known before.
+    noise : float
+        Standard deviation of the readings of theta [rad], positive.
+    radius : float, optional
+        Effective radius of the finger's disk [m].
+    radius_sigma : float, optional
+        Its standard deviation [m]; the guaranteed bounds hold within three of them.
+    outlier : float, optional
+        Probability that a reading is wrong altogether.
+    disk : bool, optional
+        Whether the object is a disk about its centre of mass, whose radius is l.
+
+    Raises
+    ------
+    ValueError
+        If a number is out of its range.
     """
 
     def __init__(
         self,
         prior: Prior,
-        noise: float,  # standard deviation of the readings [rad]
+        noise: float,
         *,
-        radius: float = FINGER_RADIUS,  # of the finger's disk [m]
-        radius_sigma: float = 0.0,  # its standard deviation [m]: the bounds hold within three
-        outlier: float = 0.001,  # probability that a reading is wrong altogether
-        disk: bool = False,  # whether l is the radius of a disk about its centre of mass
+        radius: float = FINGER_RADIUS,
+        radius_sigma: float = 0.0,
+        outlier: float = 0.001,
+        disk: bool = False,
     ) -> None:
         for name, value in (('noise', noise), ('radius', radius)):
             if not (math.isfinite(value) and value > 0.0):
@@ -111,7 +158,27 @@ class ContactEstimator:
         self.log_evidence = 0.0
 
     def push(self, theta: float, v_x: float, v_y: float, duration: float) -> Estimate:
-        """Take a push and the reading at its end, as `Estimator.push` does."""
+        """Take a push and the reading at its end.
+
+        Parameters
+        ----------
+        theta : float
+            Reading of the edge's angle [rad]; NaN without one.
+        v_x, v_y : float
+            Mean velocity of the finger relative to the support since the last call [m/s].
+        duration : float
+            Time since the last call [s]; 0 for a reading without a push, as the first one is.
+
+        Returns
+        -------
+        Estimate
+            What is known now.
+
+        Raises
+        ------
+        ValueError
+            If a velocity is not finite, or the duration negative or not finite.
+        """
         if not (math.isfinite(v_x) and math.isfinite(v_y)):
             raise ValueError(f'v_x, v_y: expected finite velocities [m/s], got {v_x}, {v_y}')
         if not (math.isfinite(duration) and duration >= 0.0):
@@ -139,7 +206,13 @@ class ContactEstimator:
         return self._guaranteed is not None and self._guaranteed.empty
 
     def estimate(self) -> Estimate:
-        """Return what is known; before any data and after a contradiction, the prior."""
+        """Return what is known; before any data and after a contradiction, the prior.
+
+        Returns
+        -------
+        Estimate
+            The estimate.
+        """
         if self._watch is None:
             return self._before
         if self.contradiction:
