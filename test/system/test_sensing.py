@@ -37,10 +37,12 @@ class Sensing:
         """Start the node and wait until it can hear the controller."""
         settings = {'use_sim_time': True, 'noise': NOISE, **parameters}
         self._nodes.start('active_sensing', settings, config=config_file(f'{config}.yaml'))
-        self._observer.wait_for(
-            lambda: self._observer.node.count_subscribers('push_controller/state'),
-            'active_sensing to listen',
-        )
+        self._observer.wait_for(self._listens, 'active_sensing to listen')
+
+    def _listens(self) -> bool:
+        """Return whether the node itself is seen to subscribe, which others do too."""
+        there = self._observer.node.get_subscriptions_info_by_topic('push_controller/state')
+        return any(subscription.node_name == 'active_sensing' for subscription in there)
 
     def reports(self) -> list[DiagnosticStatus]:
         """Give what its diagnostics have said so far."""
