@@ -39,12 +39,6 @@ def _escape_bars(app, what, name, obj, options, lines):
     lines[:] = [re.sub(r'(`[^`]*`)|\|', lambda bar: bar[1] or r'\|', line) for line in lines]
 
 
-def _skip_aliases(app, what, name, obj, skip, options):
-    """Leave out the fields of named tuples, which the class's docstring explains."""
-    return True if str(obj.__doc__).startswith('Alias for field number') else None
-
-
 def setup(app):
-    """Connect the handlers."""
-    app.connect('autodoc-skip-member', _skip_aliases)
+    """Connect the handler."""
     app.connect('autodoc-process-docstring', _escape_bars)

@@ -14,23 +14,23 @@ from typing import NamedTuple
 class Field(NamedTuple):
     """A number in a sensor_msgs/JointState message."""
 
-    name: str  # of the joint in the message
-    unit: str  # SI; empty for counts, flags and codes
-    words: str
-    codes: str = ''  # of a code: the tuple whose index it is, such as 'control.STATES'
-    array: str = 'position'  # of the message, in which the number stands
+    name: str  #: of the joint in the message
+    unit: str  #: SI; empty for counts, flags and codes
+    words: str  #: what it says
+    codes: str = ''  #: tuple whose index the number is, such as 'control.STATES'; '' if none
+    array: str = 'position'  #: of the message, in which the number stands
 
 
 class Topic(NamedTuple):
     """A topic."""
 
-    name: str  # relative unless it begins with a slash: a namespace makes a second finger
-    type_name: str
-    givers: tuple[str, ...]  # nodes that publish it
-    takers: tuple[str, ...]  # nodes that subscribe to it
-    content: str  # what a message says, and when one is published
-    fields: tuple[Field, ...] = ()  # of a JointState message, in their order
-    recorded: bool = True  # by default
+    name: str  #: relative, so that a namespace makes a second finger, or with a slash
+    type_name: str  #: message type
+    givers: tuple[str, ...]  #: nodes that publish it
+    takers: tuple[str, ...]  #: nodes that subscribe to it
+    content: str  #: what a message says, and when one is published
+    fields: tuple[Field, ...] = ()  #: of a JointState message, in their order
+    recorded: bool = True  #: whether it is recorded unless somebody names topics
 
     @property
     def field_names(self) -> tuple[str, ...]:
@@ -41,18 +41,18 @@ class Topic(NamedTuple):
 class Service(NamedTuple):
     """A service."""
 
-    name: str  # ~ stands for the node's name
-    type_name: str
-    node: str
-    content: str
+    name: str  #: ~ stands for the node's name
+    type_name: str  #: service type
+    node: str  #: which node offers it
+    content: str  #: what it does
 
 
 class NodeSummary(NamedTuple):
     """A node."""
 
-    name: str  # of the node, its executable and its module in `tactile_push.nodes`
-    summary: str
-    managed: bool = False  # whether it is a managed (lifecycle) node
+    name: str  #: of the node, its executable and its module in `tactile_push.nodes`
+    summary: str  #: what it does
+    managed: bool = False  #: whether it is a managed (lifecycle) node
 
 
 # Frames.

@@ -53,15 +53,15 @@ TRANSLATING_STEP = 400  # the object translates from this step on: the ranges ar
 class PaperFigures:
     """What the paper publishes of an experiment with the real finger."""
 
-    figure: str  # its number
-    object: str  # what was pushed, as the parameter `object` of `sim_plant` names it
-    theta_desired: float  # [rad]
-    band: float  # how near to it counts as settled [rad]
-    settle_step: int  # step from which theta stays so near
-    theta_range: Range | None = None  # from step `TRANSLATING_STEP` on [rad]
-    phi_range: Range | None = None  # [rad]
-    d_range: Range | None = None  # bounds that follow by (17) [m]
-    known_step: int | None = None  # from which they hold: before, the paper knows nothing of d
+    figure: str  #: its number
+    object: str  #: what was pushed, as the parameter `object` of `sim_plant` names it
+    theta_desired: float  #: desired angle of the edge [rad]
+    band: float  #: how near to it counts as settled [rad]
+    settle_step: int  #: step from which theta stays so near
+    theta_range: Range | None = None  #: of theta from step `TRANSLATING_STEP` on [rad]
+    phi_range: Range | None = None  #: of phi from there on [rad]
+    d_range: Range | None = None  #: bounds on d that follow by (17) [m]
+    known_step: int | None = None  #: from which they hold; the paper knows nothing of d before
 
 
 FIGURE_9 = PaperFigures(

@@ -8,7 +8,9 @@ import inspect
 import re
 import subprocess
 import sys
+import textwrap
 from types import FunctionType
+from typing import NamedTuple
 
 import pytest
 
@@ -160,13 +162,31 @@ def documented(part):
     return found
 
 
+def described_where_they_stand(record):
+    """Return whether a class has fields, and a `#:` comment at each describes it."""
+    source = textwrap.dedent(inspect.getsource(record))
+    lines = source.splitlines()
+    fields = [
+        entry.lineno
+        for entry in ast.parse(source).body[0].body
+        if isinstance(entry, ast.AnnAssign) and not entry.target.id.startswith('_')
+    ]
+    return bool(fields) and all(
+        re.search(r'#: \S', lines[number - 1]) or re.match(r'\s*#: \S', lines[number - 2])
+        for number in fields
+    )
+
+
 def faults_of(thing):
     """Return what the docstring of a public function, class, method or property lacks."""
     pytest.importorskip('numpydoc', reason='pip install numpydoc')
     from numpydoc.docscrape import get_doc_object
     from numpydoc.validate import validate
 
-    checks = {'GL08', 'SS03', 'SS06'} if isinstance(thing, property) else CHECKS
+    checks = CHECKS
+    described = inspect.isclass(thing) and described_where_they_stand(thing)
+    if described or isinstance(thing, property):
+        checks = {'GL08', 'SS03', 'SS06'}
     errors = validate(get_doc_object(thing))['errors']
     return [text for code, text in errors if code in checks]
 
@@ -217,6 +237,21 @@ def complete(length: float, *others: float) -> float:
     return length + sum(others)
 
 
+class Described(NamedTuple):
+    """Do something."""
+
+    length: float  #: length [m]
+    #: width [m]
+    width: float
+
+
+class HalfDescribed(NamedTuple):
+    """Do something."""
+
+    length: float  #: length [m]
+    width: float  # [m]
+
+
 def test_faults_of_docstrings_are_found():
     assert faults_of(undocumented) == [
         "Parameters {'force'} not documented",
@@ -227,3 +262,5 @@ def test_faults_of_docstrings_are_found():
         'No Returns section found',
     ]
     assert faults_of(complete) == []
+    assert faults_of(Described) == []
+    assert faults_of(HalfDescribed) == ["Parameters {'length', 'width'} not documented"]

@@ -28,22 +28,12 @@ _BY_LOG_TIME = attrgetter('log_time')
 
 @dataclass(frozen=True, slots=True)
 class Message:
-    """A message as it lies in a bag.
+    """A message as it lies in a bag."""
 
-    Parameters
-    ----------
-    topic : str
-        Full name of the topic.
-    log_time, publish_time : int
-        When it was received and published [ns].
-    data : bytes
-        The message in CDR, with its four bytes of encapsulation header.
-    """
-
-    topic: str
-    log_time: int
-    publish_time: int
-    data: bytes
+    topic: str  #: full name of the topic
+    log_time: int  #: when it was received [ns]
+    publish_time: int  #: when it was published [ns]
+    data: bytes  #: the message in CDR, with its four bytes of encapsulation header
 
 
 class McapFile:

@@ -34,28 +34,14 @@ _LOGGER = logging.getLogger('tactile_push.bags')
 
 @dataclass(frozen=True)
 class Topic:
-    """A topic of a bag.
+    """A topic of a bag."""
 
-    Parameters
-    ----------
-    name, type_name : str
-        Full name, and message type such as ``'sensor_msgs/msg/JointState'``.
-    definition : str
-        Text of the schema: the type's definition with those of all its parts.
-    qos : tuple of dict
-        Quality of service that each publisher offered, in the words of rosbag2.
-    type_hash : str
-        Hash of the type after REP-2011; empty if the bag does not have it.
-    encodings : tuple of str
-        That of the messages and that of the schema, such as ``('cdr', 'ros2msg')``.
-    """
-
-    name: str
-    type_name: str
-    definition: str
-    qos: tuple[dict, ...]
-    type_hash: str
-    encodings: tuple[str, str]
+    name: str  #: full name
+    type_name: str  #: message type, such as ``'sensor_msgs/msg/JointState'``
+    definition: str  #: the type's definition with those of all its parts
+    qos: tuple[dict, ...]  #: each publisher's quality of service, in the words of rosbag2
+    type_hash: str  #: hash of the type after REP-2011; empty if the bag does not have it
+    encodings: tuple[str, str]  #: of the messages and of the schema, such as ``('cdr', 'ros2msg')``
 
     @property
     def decodes(self) -> bool:

@@ -8,51 +8,25 @@ from tactile_push.mechanics.compiled import Array
 
 
 class Pose(NamedTuple):
-    """Position of an object's centre of mass and its orientation.
+    """Position of an object's centre of mass and its orientation."""
 
-    Parameters
-    ----------
-    x, y : float
-        Position [m].
-    angle : float
-        Orientation [rad], counterclockwise.
-    """
-
-    x: float
-    y: float
-    angle: float
+    x: float  #: position [m]
+    y: float  #: position [m]
+    angle: float  #: orientation [rad], counterclockwise
 
 
 class Body(NamedTuple):
-    """A pushed object, as the disk of one finger meets it; `Slider.body` makes it.
+    """A pushed object, as the disk of one finger meets it; `Slider.body` makes it."""
 
-    Parameters
-    ----------
-    path : ndarray, shape (M + 1, 8)
-        Pieces of the path of the disk's centre around the object, see `Outline.path`.
-    c : float
-        Ratio m_max / f_max of the limit surface [m].
-    support : ndarray, shape (3, N), or None
-        Support points (x, y, load) of the exact limit surface, in the object's frame [m, m];
-        None for the ellipsoid.
-    """
-
-    path: Array
-    c: float
+    path: Array  #: pieces of the path of the disk around the object, (M + 1, 8); see `Outline.path`
+    c: float  #: ratio m_max / f_max of the limit surface [m]
+    #: rows x, y [m] and load of an exact limit surface's points; None for the ellipsoid
     support: Array | None
 
 
 class Finger(NamedTuple):
-    """The finger's disk and its friction with the object.
+    """The finger's disk and its friction with the object."""
 
-    Parameters
-    ----------
-    cos_alpha, sin_alpha : float
-        The friction cone, see `friction_cone`.
-    r : float
-        Radius of the disk [m].
-    """
-
-    cos_alpha: float
-    sin_alpha: float
-    r: float
+    cos_alpha: float  #: of the friction cone, see `friction_cone`
+    sin_alpha: float  #: the same
+    r: float  #: radius of the disk [m]

@@ -33,21 +33,8 @@ COUNT = 400
 class Support:
     """Loads on the ground.
 
-    Made by `at_points`, `corners`, `rim`, `uniform`, `circle`, `radial` or `density`.
-
-    Parameters
-    ----------
-    points : ndarray, shape (N, 2)
-        Points [m] that stand for the support in an exact limit surface.
-    loads : ndarray, shape (N,)
-        Greatest friction of each point [N].
-    centre : tuple of float
-        Centre of friction (x, y) [m].
-    f_max : float
-        Greatest frictional force [N], eq. (2).
-    m_max : float
-        Greatest frictional moment about the centre [N m], eq. (1): of the continuous support where
-        the points only stand for it.
+    Made by `at_points`, `corners`, `rim`, `uniform`, `circle`, `radial` or `density`. Where points
+    only stand for a continuous support, `m_max` is that of the continuous one.
 
     References
     ----------
@@ -55,11 +42,11 @@ class Support:
     tactile feedback", IROS 1992, eqs. (1) and (2).
     """
 
-    points: Array
-    loads: Array
-    centre: tuple[float, float]
-    f_max: float
-    m_max: float
+    points: Array  #: points that stand for the support in an exact limit surface [m], shape (N, 2)
+    loads: Array  #: greatest friction of each point [N], shape (N,)
+    centre: tuple[float, float]  #: centre of friction (x, y) [m]
+    f_max: float  #: greatest frictional force [N], eq. (2)
+    m_max: float  #: greatest frictional moment about the centre [N m], eq. (1)
 
     @property
     def c(self) -> float:

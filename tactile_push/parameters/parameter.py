@@ -13,32 +13,16 @@ P = TypeVar('P', bound='NodeParameters')
 
 @dataclass(frozen=True)
 class Parameter:
-    """What is known of one parameter of a node.
+    """What is known of one parameter of a node."""
 
-    Parameters
-    ----------
-    name : str
-        Name.
-    default : bool, int, float, str or list
-        Value unless somebody gives another; every value has its type.
-    unit, words : str
-        Unit for people, '' if there is none, and what the parameter is.
-    lower, upper : float or int, optional
-        Closed range of a number; a whole number needs both.
-    choices : tuple of str, optional
-        All values that a text may have.
-    read_only : bool, optional
-        Whether the value is fixed once the node runs.
-    """
-
-    name: str
-    default: Any
-    unit: str
-    words: str
-    lower: float = -math.inf
-    upper: float = math.inf
-    choices: tuple[str, ...] = ()
-    read_only: bool = False
+    name: str  #: of the parameter
+    default: Any  #: value unless somebody gives another; every value has its type
+    unit: str  #: for people; '' if there is none
+    words: str  #: what the parameter is
+    lower: float = -math.inf  #: closed range of a number; a whole number needs both ends
+    upper: float = math.inf  #: the other end of the range
+    choices: tuple[str, ...] = ()  #: all values that a text may have
+    read_only: bool = False  #: whether the value is fixed once the node runs
 
     def expected(self) -> str:
         """Return what a value has to be, in words.

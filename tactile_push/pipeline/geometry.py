@@ -26,27 +26,13 @@ UNREADABLE, NEGATIVE_STAMP = 'no azimuth and elevation', 'negative stamp'
 
 
 class Felt(NamedTuple):
-    """What came of one reading.
+    """What came of one reading."""
 
-    Parameters
-    ----------
-    stamp : tuple of int
-        When the sensor was read [s, ns].
-    reading : Reading
-        Angles that the sensor sent; `NO_CONTACT` if the message had none.
-    joint_angle : float
-        How far the joints had turned the finger tip then [rad]; NaN if that is not known.
-    contact : Contact or None
-        The contact; None if the reading was refused.
-    refusal : str
-        Why it was refused, one of `REFUSALS`; empty if it was not.
-    """
-
-    stamp: Stamp
-    reading: Reading
-    joint_angle: float
-    contact: Contact | None
-    refusal: str
+    stamp: Stamp  #: when the sensor was read [s, ns]
+    reading: Reading  #: what the sensor sent; `NO_CONTACT` if the message had no angles
+    joint_angle: float  #: how far the joints had turned the finger tip [rad]; NaN if unknown
+    contact: Contact | None  #: None if the reading was refused
+    refusal: str  #: why it was refused, one of `REFUSALS`; empty if it was not
 
     def outputs(self) -> Iterator[Output]:
         """Yield the messages: the contact, if there is one, and what became of the reading."""

@@ -14,30 +14,14 @@ from tactile_push.pipeline.stamps import Seconds, Stamp, stamp_before
 
 
 class Sensed(NamedTuple):
-    """What is known of the object after one control period.
+    """What is known of the object after one control period."""
 
-    Parameters
-    ----------
-    stamp : tuple of int
-        When the period began [s, ns].
-    values : dict of str to float
-        Numbers of `active_sensing/state`.
-    estimate : ObjectEstimate
-        The estimate.
-    took : bool
-        Whether there was a reading.
-    forgot : str
-        Why everything was forgotten; empty if it was not.
-    has_pose : bool
-        Whether there is a new pose of the object to tell.
-    """
-
-    stamp: Stamp
-    values: dict[str, float]
-    estimate: ObjectEstimate
-    took: bool
-    forgot: str
-    has_pose: bool
+    stamp: Stamp  #: when the control period began [s, ns]
+    values: dict[str, float]  #: numbers of `active_sensing/state` by name
+    estimate: ObjectEstimate  #: what is known of the object
+    took: bool  #: whether there was a reading
+    forgot: str  #: why everything was forgotten; empty if it was not
+    has_pose: bool  #: whether there is a new pose to publish
 
     @property
     def known(self) -> bool:

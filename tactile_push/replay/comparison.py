@@ -14,24 +14,24 @@ from tactile_push.pipeline import Felt
 class ReplayedTick(NamedTuple):
     """A control period of the replay beside the recorded one, NaN where there is none."""
 
-    time: float  # since the beginning of the bag [s]
-    theta: float  # what the law used [rad]
-    phi: float  # what the law gave [rad]
-    v_x: float  # what the law commands now [m/s]
-    v_x_recorded: float  # what was commanded then [m/s]
-    state: str
-    stop_reason: str
+    time: float  #: since the beginning of the bag [s]
+    theta: float  #: what the law used [rad]
+    phi: float  #: what the law gave [rad]
+    v_x: float  #: what the law commands now [m/s]
+    v_x_recorded: float  #: what was commanded then [m/s]
+    state: str  #: what the controller does now, one of `control.STATES`
+    stop_reason: str  #: one of `control.STOP_REASONS`
 
 
 class SensedTick(NamedTuple):
     """Where along the edge the finger was by one control period."""
 
-    time: float  # of the control period, since the beginning of the bag [s]
-    d: float  # the contact at the last reading [m]; NaN if nothing is known
-    d_lower: float  # bounds of its 95 % interval [m]
-    d_upper: float
-    d_least: float  # its guaranteed bounds [m]
-    d_most: float
+    time: float  #: of the control period, since the beginning of the bag [s]
+    d: float  #: the contact at the last reading [m]; NaN if nothing is known
+    d_lower: float  #: bounds of its 95 % interval [m]
+    d_upper: float  #: the same
+    d_least: float  #: its guaranteed bounds [m]
+    d_most: float  #: the same
 
     @classmethod
     def of(cls, time: float, values: Mapping[str, float]) -> 'SensedTick':
@@ -47,16 +47,16 @@ class SensedTick(NamedTuple):
 class Comparison:
     """How the commands of a finger compare."""
 
-    finger: str  # its namespace, '' for the root
-    ticks: list[ReplayedTick] = field(default_factory=list)
-    kept: int = 0  # first control periods, which depend on what was before the bag
-    went_back: int = 0  # of those kept: with a stamp before that of the one before them
-    recorded: bool = True  # whether the bag has control periods to compare with
-    readings: int = 0  # replayed
-    contacts: int = 0  # found in them
-    refused: dict[str, int] = field(default_factory=dict)  # readings by reason
-    without_effect: list[str] = field(default_factory=list)  # wanted parameters the bag decides
-    sensed: list[SensedTick] | None = None  # None if the object was not sensed
+    finger: str  #: its namespace, '' for the root
+    ticks: list[ReplayedTick] = field(default_factory=list)  #: the control periods
+    kept: int = 0  #: first control periods, which depend on what was before the bag
+    went_back: int = 0  #: kept ones whose stamp is before that of the one before them
+    recorded: bool = True  #: whether the bag has control periods to compare with
+    readings: int = 0  #: replayed
+    contacts: int = 0  #: found in them
+    refused: dict[str, int] = field(default_factory=dict)  #: readings by reason
+    without_effect: list[str] = field(default_factory=list)  #: wanted parameters the bag decides
+    sensed: list[SensedTick] | None = None  #: None if the object was not sensed
     _last_kept: int = field(default=0, repr=False)  # its stamp [ns]
 
     def count(self, felt: Felt) -> None:

@@ -25,9 +25,9 @@ ROUNDING = 1e-9  # of a length [m]
 class Contradiction:
     """A time during which the readings contradicted the object."""
 
-    reason: str  # one of `CONTRADICTIONS`
-    at: float  # when it began [s], from the start of the bag
-    duration: float  # [s]; up to the last control period if it did not end in the bag
+    reason: str  #: one of `CONTRADICTIONS`
+    at: float  #: when it began [s], from the start of the bag
+    duration: float  #: [s]; up to the last control period if it did not end in the bag
     ended: bool
 
 
@@ -36,26 +36,26 @@ class Forgotten:
     """A moment at which everything was forgotten."""
 
     reason: str
-    at: float  # [s], from the start of the bag
+    at: float  #: [s], from the start of the bag
 
 
 @dataclass(frozen=True)
 class ObjectFigures:
     """What a bag tells about an object."""
 
-    finger: str  # namespace of the finger that pushed it, '' for the root
-    object_told: bool  # whether somebody named the object; otherwise it is the paper's block
-    ticks: list[SensedTick]  # what each control period told of d
-    readings: int  # that were taken
-    values: dict[str, float] | None  # last `active_sensing/state` with anything known; None without
-    at: float | None  # when that was [s], from the start of the bag
-    known_step: int | None  # step from which d stayed known to 2 mm
-    contradictions: list[Contradiction]
-    forgotten: list[Forgotten]
-    compared: int  # control periods with anything known and with a simulator's true d
-    inside: float | None  # share of them with the true d in the 95 % interval
-    inside_guaranteed: float | None  # share of them with the true d in the guaranteed bounds
-    paper: PaperFigures | None  # what the paper publishes of the same experiment
+    finger: str  #: namespace of the finger that pushed it, '' for the root
+    object_told: bool  #: whether somebody named the object; otherwise it is the paper's block
+    ticks: list[SensedTick]  #: what each control period told of d
+    readings: int  #: that were taken
+    values: dict[str, float] | None  #: last `active_sensing/state` with anything known
+    at: float | None  #: when that was [s], from the start of the bag
+    known_step: int | None  #: step from which d stayed known to 2 mm
+    contradictions: list[Contradiction]  #: between the readings and the object
+    forgotten: list[Forgotten]  #: moments at which everything was forgotten
+    compared: int  #: control periods with anything known and with a simulator's true d
+    inside: float | None  #: share of them with the true d in the 95 % interval
+    inside_guaranteed: float | None  #: share of them with the true d in the guaranteed bounds
+    paper: PaperFigures | None  #: what the paper publishes of the same experiment
 
 
 class ObjectHistory:

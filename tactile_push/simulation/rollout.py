@@ -71,32 +71,16 @@ class Periods(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Rollout:
-    """What happened in one run; index k is the start of control period k.
+    """What happened in one run; index k is the start of control period k."""
 
-    Parameters
-    ----------
-    theta : ndarray, shape (K + 1,)
-        Angle of the pushed edge or tangent [rad].
-    phi : ndarray, shape (K + 1,)
-        Push angle that drives period k [rad].
-    d : ndarray, shape (K + 1,)
-        Contact along the edge [m].
-    x, y : ndarray, shape (K + 1,)
-        Centre of mass on the belt, the finger's disk starting at the origin [m].
-    mode : ndarray of int, shape (K + 1,)
-        How the contact moved in period k, an index of `MODES`: at the end of the period; the last
-        one is that of the period before it.
-    end : str
-        Why it ended: 'done', or why contact was lost.
-    """
-
-    theta: Array
-    phi: Array
-    d: Array
-    x: Array
-    y: Array
+    theta: Array  #: angle of the pushed edge or tangent [rad], shape (K + 1,)
+    phi: Array  #: push angle that drives period k [rad], shape (K + 1,)
+    d: Array  #: contact along the edge [m], shape (K + 1,)
+    x: Array  #: centre of mass on the belt [m], shape (K + 1,); the finger starts at (0, 0)
+    y: Array  #: the same along the belt [m], shape (K + 1,)
+    #: how the contact moved at the end of period k, an index of `MODES`; the last is repeated
     mode: npt.NDArray[np.int64]
-    end: str
+    end: str  #: 'done', or why contact was lost
 
 
 @equation

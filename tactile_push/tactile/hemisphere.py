@@ -14,19 +14,11 @@ class ReadingRejectedError(ValueError):
 
 @dataclass(frozen=True)
 class Contact:
-    """A contact on the finger's disk, in the frame `finger_disk`.
+    """A contact on the finger's disk, in the frame `finger_disk`."""
 
-    Parameters
-    ----------
-    theta : float
-        Angle of the pushed edge [rad], 90 degrees clockwise of the normal into the object.
-    x, y : float
-        Contact point relative to the disk's centre [m].
-    """
-
-    theta: float
-    x: float
-    y: float
+    theta: float  #: angle of the pushed edge [rad], 90 degrees clockwise of the normal into it
+    x: float  #: contact point relative to the disk's centre [m]
+    y: float  #: the same [m]
 
 
 def contact_of_reading(

@@ -13,19 +13,11 @@ class OutOfReachError(ValueError):
 
 @dataclass(frozen=True)
 class FingerPose:
-    """Pose of the finger tip in `finger_base`.
+    """Pose of the finger tip in `finger_base`."""
 
-    Parameters
-    ----------
-    x, y : float
-        Centre of the finger's disk [m].
-    psi : float
-        Angle of the finger tip's pole [rad].
-    """
-
-    x: float
-    y: float
-    psi: float
+    x: float  #: centre of the finger's disk [m]
+    y: float  #: the same [m]
+    psi: float  #: angle of the finger tip's pole [rad]
 
 
 @dataclass(frozen=True)

@@ -8,21 +8,11 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Reading:
-    """One reading of the hemispherical sensor (Section V.A).
+    """One reading of the hemispherical sensor (Section V.A)."""
 
-    Parameters
-    ----------
-    azimuth : float
-        Angle about the pole [rad], in (-pi, pi]; NaN without contact.
-    elevation : float
-        Angle from the equator to the contact [rad], in [0, pi/2]; NaN without contact.
-    normal_force : float
-        Force along the normal [N]; NaN where it is not measured.
-    """
-
-    azimuth: float
-    elevation: float
-    normal_force: float = math.nan
+    azimuth: float  #: angle about the pole [rad], in (-pi, pi]; NaN without contact
+    elevation: float  #: angle from the equator [rad], in [0, pi/2]; NaN without contact
+    normal_force: float = math.nan  #: along the normal [N]; NaN where it is not measured
 
     @property
     def in_contact(self) -> bool:
