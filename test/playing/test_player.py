@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The player with real subscribers, in a domain of its own for each test."""
 
+import math
 import time
 from types import SimpleNamespace
 
@@ -19,6 +20,7 @@ from std_msgs.msg import Int64, String  # noqa: E402
 
 from tactile_push.bags import BagWriter  # noqa: E402
 from tactile_push.bags.reader import BagError, BagReader  # noqa: E402
+from tactile_push.playing import player as playing  # noqa: E402
 from tactile_push.playing.player import PATIENCE, QUIET, Player  # noqa: E402
 from tactile_push.playing.schedule import part_of  # noqa: E402
 from tactile_push.testing.processes import claim_domain  # noqa: E402
@@ -42,7 +44,8 @@ def write(path, milliseconds, topic='/number', **options):
 class Graph:
     """A node that plays and one that listens, which run while the test spins them."""
 
-    def __init__(self):
+    def __init__(self, monkeypatch):
+        self.monkeypatch = monkeypatch
         self.context = Context()
         domain, self.lock = claim_domain()
         rclpy.init(context=self.context, domain_id=domain)
@@ -76,9 +79,23 @@ class Graph:
             message_type, topic, note, QoSProfile(depth=depth, **policies)
         )
 
-    def play(self, part, **options):
+    def play_when_quiet(self, part, **options):
+        """Make a player that begins when users' players do."""
         self.player = Player(self.node, part, lambda: self.ended.append(True), **options)
         return self.player
+
+    def play(self, part, **options):
+        """Make a player that begins as soon as all who listen are matched, if anybody does."""
+        self.set_patience(math.inf, math.inf)
+        self.play_when_quiet(part, **options)
+        topics = [subscription.topic_name for subscription in self.listener.subscriptions]
+        self.spin_until(lambda: all(map(self.node.count_subscribers, topics)))
+        self.set_patience(0.0, math.inf if topics else 0.0)
+        return self.player
+
+    def set_patience(self, quiet, patience):
+        self.monkeypatch.setattr(playing, 'QUIET', quiet)
+        self.monkeypatch.setattr(playing, 'PATIENCE', patience)
 
     def spin_until(self, condition):
         deadline = time.monotonic() + 60.0
@@ -111,8 +128,8 @@ class Graph:
 
 
 @pytest.fixture
-def graph():
-    graph = Graph()
+def graph(monkeypatch):
+    graph = Graph(monkeypatch)
     yield graph
     graph.shut_down()
 
@@ -162,6 +179,7 @@ def test_clock_is_repeated_while_time_stands_still(graph, tmp_path):
     player = graph.play(part_of(write(tmp_path / 'bag', [5, 60_000])), clock_rate=1.0, paused=True)
     graph.spin_until(lambda: graph.heard)
     assert player.waiting
+    graph.set_patience(0.0, 0.0)
     graph.spin_until(lambda: not player.waiting)
     player.step()
     seen = len(graph.heard)
@@ -193,7 +211,7 @@ def test_loop_starts_over_until_it_is_stopped(graph, tmp_path):
 def test_pause_step_and_going_on(graph, tmp_path):
     graph.listen(Int64, '/number')
     player = graph.play(part_of(write(tmp_path / 'bag', [0, 1, 2, 3])), paused=True)
-    assert player.step() is None  # nobody is known to listen yet
+    assert player.step() is None  # the play has not begun
     graph.spin_until(lambda: not player.waiting)
     graph.spin_for(0.2)
     assert graph.heard == []
@@ -222,7 +240,7 @@ def test_step_is_refused_unless_paused(graph, tmp_path):
 def test_waits_for_subscribers_that_are_there_and_then_for_quiet(graph, tmp_path):
     graph.listen(Int64, '/number', reliability=ReliabilityPolicy.BEST_EFFORT)
     began = time.monotonic()
-    player = graph.play(part_of(write(tmp_path / 'bag', [0])))
+    player = graph.play_when_quiet(part_of(write(tmp_path / 'bag', [0])))
     graph.spin_to_the_end()
     assert graph.numbers() == due(0)
     assert time.monotonic() - began >= QUIET
@@ -232,7 +250,7 @@ def test_waits_for_subscribers_that_are_there_and_then_for_quiet(graph, tmp_path
 
 def test_does_not_wait_for_ever_for_nobody(graph, tmp_path):
     began = time.monotonic()
-    graph.play(part_of(write(tmp_path / 'bag', [0])))
+    graph.play_when_quiet(part_of(write(tmp_path / 'bag', [0])))
     graph.spin_to_the_end()
     assert time.monotonic() - began >= PATIENCE
     assert graph.warnings == ['playing, but nobody listens']
@@ -244,6 +262,7 @@ def test_subscriber_that_cannot_be_served_is_not_waited_for(graph, tmp_path):
     bag = write(tmp_path / 'bag', [0], qos=[offer])
     graph.expects = False
     graph.play(part_of(bag))
+    graph.set_patience(0.0, 0.0)
     graph.spin_to_the_end()
     assert graph.heard == []
     assert graph.warnings == ['playing, but nobody listens']
