@@ -5,6 +5,7 @@ import math
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 from typing import Any
 
@@ -84,6 +85,7 @@ def test_interrupted_demo_ends_in_silence_and_leaves_no_process(
     )
     while not (tmp_path / 'block').exists():  # made by the recording process
         assert demo.poll() is None
+        time.sleep(0.01)
     children = _descendants(demo.pid)
     assert len(children) >= 6
     demo.send_signal(stop_signal)

@@ -101,6 +101,7 @@ def test_signal_during_the_imports_ends_a_node_in_silence(environment, signum, b
     maps = Path(f'/proc/{process.pid}/maps')
     while 'numpy' not in maps.read_text():  # of what a node imports, among the first
         assert process.poll() is None
+        time.sleep(0.001)
     process.send_signal(signum)
     out, err = process.communicate(timeout=PATIENCE)
     assert (process.returncode, out, err) == (0, '', '')
