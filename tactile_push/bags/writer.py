@@ -29,6 +29,7 @@ COMPRESSIONS = {
     'none': CompressionType.NONE,
 }
 
+IS_THERE = 'expected a new folder, got a path that exists'
 # Size at which a chunk is closed, before compression [B].
 _CHUNK_BYTES = 1 << 20
 
@@ -91,7 +92,10 @@ class BagWriter:
         self._compression = COMPRESSIONS[compression]
         self._max_bytes = max_bytes
         self._max_duration = round(max_duration * 1e9)
-        self._directory.mkdir(parents=True)
+        try:
+            self._directory.mkdir(parents=True)
+        except FileExistsError as error:
+            raise FileExistsError(error.errno, IS_THERE, os.fspath(directory)) from None
         self._topics: dict[str, TopicMetadata] = {}
         self._definitions: dict[str, str] = {}
         self._notes: dict[str, str] = {}

@@ -68,10 +68,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             raise
         if error.filename is None:
             _say_no_more()
-        what = error.strerror
-        if isinstance(error, FileExistsError):
-            what = 'is there already, expected a new folder'
-        print(f'{command}: {error.filename or "standard output"}: {what}', file=sys.stderr)
+        where = error.filename or 'standard output'
+        print(f'{command}: {where}: {error.strerror}', file=sys.stderr)
         return 2
 
 

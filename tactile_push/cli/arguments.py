@@ -6,9 +6,14 @@ import argparse
 import math
 from collections.abc import Callable
 from pathlib import Path
-from typing import NoReturn, TypeAlias
+from typing import Any, NoReturn, TypeAlias
 
 MOST_STEPS = 10_000_000
+BAG: dict[str, Any] = {
+    'type': Path,
+    'metavar': 'BAG',
+    'help': 'folder of a bag, or one of its files',
+}
 PICTURES = ('.png', '.svg', '.pdf')
 
 
@@ -41,9 +46,7 @@ Commands: TypeAlias = 'argparse._SubParsersAction[Parser]'
 
 def rerun_options(parser: Parser, *, config: str, out: str, json: str) -> None:
     """Add the bag and the options, with these helps, of a command that computes a bag again."""
-    parser.add_argument(
-        'bag', type=Path, metavar='BAG', help='folder of a bag, or one of its files'
-    )
+    parser.add_argument('bag', **BAG)
     parser.add_argument('--config', type=Path, metavar='FILE', help=config)
     parser.add_argument('-o', '--out', type=Path, metavar='DIR', help=out)
     parser.add_argument('--json', metavar='FILE|-', help=json)

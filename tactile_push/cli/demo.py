@@ -40,6 +40,7 @@ def _demo(options: argparse.Namespace) -> int:
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
     from tactile_push import demo
+    from tactile_push.cli.output import naming
 
     bar = Progress(
         TextColumn('{task.description:8}'),
@@ -50,15 +51,13 @@ def _demo(options: argparse.Namespace) -> int:
     )
     tasks = {name: bar.add_task(name, total=demo.STEPS) for name in demo.RIGS}
     try:
-        with bar:
+        with naming(options.out), bar:
             results = demo.run_demo(
                 options.out,
                 lambda name, steps: bar.update(tasks[name], completed=min(steps, demo.STEPS)),
             )
     except demo.DemoError as error:
         raise Refused(error, status=1) from None
-    except OSError as error:
-        raise Refused(f'{error.filename or options.out}: {error.strerror}') from None
     if options.json:
         rigs = {name: result.as_json() for name, result in results.items()}
         print(json.dumps({'rigs': rigs}, indent=2))

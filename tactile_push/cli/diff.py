@@ -6,10 +6,9 @@ import argparse
 import json
 import math
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tactile_push.cli.arguments import Commands, tolerance, topic
+from tactile_push.cli.arguments import BAG, Commands, tolerance, topic
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -27,8 +26,8 @@ def add(commands: Commands) -> None:
         'compared field by field. Exit status: 0 same, 1 different, 2 bad input.',
     )
     option = diff.add_argument
-    option('a', type=Path, metavar='BAG_A', help='folder or file of a bag')
-    option('b', type=Path, metavar='BAG_B', help='the bag to compare with it')
+    option('a', **BAG | {'metavar': 'BAG_A'})
+    option('b', **BAG | {'metavar': 'BAG_B', 'help': 'the bag to compare with it'})
     option(
         '--tolerance',
         type=tolerance,

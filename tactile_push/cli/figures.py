@@ -4,7 +4,6 @@
 
 import argparse
 import json
-import sys
 from pathlib import Path
 
 from tactile_push.cli.arguments import Commands
@@ -36,15 +35,11 @@ def add(commands: Commands) -> None:
 def _figures(options: argparse.Namespace) -> int:
     from rich.console import Console
 
+    from tactile_push.cli.output import naming
     from tactile_push.figures import save_figures
 
-    with Console(stderr=True).status('figures') as status:
-        try:
-            files = save_figures(options.out, lambda name: status.update(name))
-        except OSError as error:
-            where = error.filename or options.out
-            print(f'tactile_push figures: {where}: {error.strerror}', file=sys.stderr)
-            return 2
+    with naming(options.out), Console(stderr=True).status('figures') as status:
+        files = save_figures(options.out, lambda name: status.update(name))
     if options.json:
         print(json.dumps({'files': [str(file) for file in files]}))
     else:

@@ -7,10 +7,9 @@ import json
 import math
 from dataclasses import asdict
 from datetime import datetime, timezone
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tactile_push.cli.arguments import Commands, number
+from tactile_push.cli.arguments import BAG, Commands, number
 from tactile_push.interface import PUSH_CONTROLLER
 from tactile_push.paper import TOLERANCE
 
@@ -33,7 +32,7 @@ def add(commands: Commands) -> None:
         "experiment, and the paper's figures of merit if the controller's states are there.",
     )
     option = info.add_argument
-    option('bag', type=Path, metavar='BAG', help='folder or file of a bag')
+    option('bag', **BAG)
     option(
         '--band-deg',
         type=number('degrees between 0 and 180', 0.0, 180.0, closed=False),

@@ -49,6 +49,18 @@ def opened(bag: Path, warn: Callable[[str], None]) -> Iterator[BagReader]:
 
 
 @contextmanager
+def naming(file: object, option: str = '') -> Iterator[None]:
+    """Refuse what fails with a file, in the words of the system, after the option that names it."""
+    try:
+        yield
+    except BrokenPipeError:  # nobody reads the output any more, which is no mistake
+        raise
+    except OSError as error:
+        place = f'{option}: ' if option else ''
+        raise Refused(f'{place}{error.filename or file}: {error.strerror}') from None
+
+
+@contextmanager
 def reading(messages: int) -> Iterator[Callable[[int], None]]:
     """Show on a terminal how many of so many messages have been read, which the function takes."""
     console = Console(stderr=True)

@@ -5,7 +5,7 @@
 import argparse
 from typing import NoReturn
 
-from tactile_push.cli.arguments import Commands, number
+from tactile_push.cli.arguments import BAG, Commands, number
 from tactile_push.cli.become import become
 from tactile_push.interface import BAG_PLAYER
 
@@ -23,7 +23,7 @@ def add(commands: Commands) -> None:
         'and use_sim_time:=true: by any other clock the stamps are old.',
     )
     option = play.add_argument
-    option('bag', metavar='BAG', help='folder of the bag, or an .mcap file')
+    option('bag', **BAG | {'type': str})
     rate = number('a factor from 0.001 to 1000', 0.001, 1000.0)
     option('--rate', type=rate, metavar='X', help="how fast the bag's time goes by (default: 1)")
     seconds = number('seconds from 0 to 1e9', 0.0, 1e9)

@@ -57,10 +57,12 @@ def add(commands: Commands) -> None:
 
 
 def _record(options: argparse.Namespace) -> NoReturn:
+    from tactile_push.bags.writer import IS_THERE
+
     if options.all and options.topics:
         raise Refused('--all: expected no topics beside it')
     if options.out is not None and os.path.lexists(options.out):
-        raise Refused(f'--out: {options.out}: is there already, expected a new folder')
+        raise Refused(f'--out: {options.out}: {IS_THERE}')
     given: dict[str, object] = {
         'compression': options.compression,
         'topics': options.topics,

@@ -8,7 +8,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-from tactile_push.cli.arguments import Commands, page
+from tactile_push.cli.arguments import BAG, Commands, page
 
 ENDINGS = r'(\.mcap)?(\.zstd)?$'  # of a bag's file
 
@@ -22,9 +22,7 @@ def add(commands: Commands) -> None:
         'v_x, d, the age of the readings, stops and warnings against time, finger and object from '
         'above with a time slider, and the outcome beside the paper.',
     )
-    report.add_argument(
-        'bag', type=Path, metavar='BAG', help='folder of the bag, or its .mcap file'
-    )
+    report.add_argument('bag', **BAG)
     report.add_argument(
         '-o',
         '--out',

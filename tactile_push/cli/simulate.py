@@ -5,8 +5,6 @@
 import argparse
 import math
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -91,7 +89,7 @@ def add(commands: Commands) -> None:
 def _simulate(options: argparse.Namespace) -> int:
     from rich.console import Console
 
-    from tactile_push.cli.output import write_json
+    from tactile_push.cli.output import naming, write_json
     from tactile_push.control import settle_step
 
     json_file, plot = (getattr(options, name, None) for name in ('json', 'plot'))
@@ -102,13 +100,13 @@ def _simulate(options: argparse.Namespace) -> int:
         if run.end == 'done':
             settled = settle_step(run.theta, math.radians(options.theta_desired_deg), TOLERANCE)
         if json_file is not None:
-            with _naming('--json', json_file):
+            with naming(json_file, '--json'):
                 write_json(json_file, _as_json(run, config, settled))
         if plot is not None:
             from tactile_push.figures import plot_history  # which loads matplotlib
 
             wanted = math.radians(options.theta_desired_deg)
-            with _naming('--plot', plot):
+            with naming(plot, '--plot'):
                 plot_history({'': (run.theta, run.phi, wanted, TOLERANCE, settled)}, [plot])
     except ValueError as error:
         raise Refused(error) from None
@@ -177,17 +175,9 @@ def _print(run: 'Rollout', config: 'RigConfig', settled: int | None, wanted_deg:
     )
 
 
-@contextmanager
-def _naming(option: str, file: object) -> Iterator[None]:
-    """Turn an OSError into a ValueError that names the option and its file."""
-    try:
-        yield
-    except OSError as error:
-        raise ValueError(f'{option}: {file}: {error.strerror}') from None
-
-
 def _outline(thing: str) -> 'tuple[Outline, tuple[float, float] | None]':
     """Return an object's outline and its centre of mass, if that is known."""
+    from tactile_push.cli.output import naming
     from tactile_push.mechanics import Outline
     from tactile_push.simulation import read_object
 
@@ -195,7 +185,7 @@ def _outline(thing: str) -> 'tuple[Outline, tuple[float, float] | None]':
         return Outline.rectangle(BLOCK_EDGE, BLOCK_DEPTH), None
     if thing == DISK:
         return Outline.circle(DISK_RADIUS), None
-    with _naming('--object', thing):
+    with naming(thing, '--object'):
         return read_object(Path(thing))
 
 
@@ -203,6 +193,7 @@ def _support(
     name: str, outline: 'Outline', centre_of_mass: tuple[float, float] | None
 ) -> 'Support':
     """Return what the object rests on."""
+    from tactile_push.cli.output import naming
     from tactile_push.mechanics import Outline, Support
     from tactile_push.simulation import read_support
 
@@ -219,5 +210,5 @@ def _support(
         if not outline.contains(rim, 1e-9 * outline.length).all():
             raise ValueError(f'support: expected a circle under the object, got {name}')
         return support
-    with _naming('--support', name):
+    with naming(name, '--support'):
         return read_support(Path(name))

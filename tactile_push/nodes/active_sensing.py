@@ -15,13 +15,14 @@ from tactile_push.interface import CONTROLLER_STATE, OBJECT_POSE, SENSING_MARKER
 from tactile_push.nodes.ros.compiling import compiling
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.markers import estimate_markers
-from tactile_push.nodes.ros.messages import publish, stamp_of
+from tactile_push.nodes.ros.messages import publish
 from tactile_push.nodes.ros.node_time import NodeTime
-from tactile_push.nodes.ros.parameters import ConfigurationError, declare
+from tactile_push.nodes.ros.parameters import declare, refusing
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED
 from tactile_push.parameters.active_sensing import ActiveSensingParameters, make_sensing
 from tactile_push.pipeline import Sensed, Sensing
+from tactile_push.pipeline.stamps import stamp_of
 
 PATIENCE = 1.0  # without a control period for longer the node warns [s]
 
@@ -43,10 +44,8 @@ class ActiveSensingNode(Node):
         self._settings = p = declare(self, ActiveSensingParameters)
         self._counted = Counter(ticks=0, readings=0)
         self._diagnostics = Diagnostics(self, self._health, lambda: self._counted)
-        try:
+        with refusing():
             sensing, compiled = make_sensing(p), make_sensing(p)
-        except ValueError as error:
-            raise ConfigurationError(f'parameter {error}') from None
         with compiling(self, self._diagnostics):
             for tick in range(2):  # compiles now what would be compiled at the first reading
                 compiled.tick(0.1 * tick, 0.0, 0.0, 0.0)

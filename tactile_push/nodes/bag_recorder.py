@@ -12,7 +12,7 @@ from rclpy.node import Node
 from tactile_push.bags import BagWriter
 from tactile_push.interface import BAG_RECORDER
 from tactile_push.nodes.ros.diagnostics import OK, WARN, Diagnostics, Health
-from tactile_push.nodes.ros.parameters import ConfigurationError, declare
+from tactile_push.nodes.ros.parameters import ConfigurationError, declare, refusing
 from tactile_push.nodes.ros.process import run
 from tactile_push.parameters import BagRecorderParameters
 from tactile_push.recording.recording import Recording
@@ -32,17 +32,13 @@ class BagRecorder(Node):
         p = declare(self, BagRecorderParameters)
         self._output = p.output or f'tactile_push_{datetime.now():%Y_%m_%d-%H_%M_%S}'
         self._check_topics(p.topics)
-        try:
+        with refusing('output'):
             self._writer = BagWriter(
                 self._output,
                 compression=p.compression,
                 max_bytes=p.max_size,
                 max_duration=p.max_duration,
             )
-        except OSError as error:
-            raise ConfigurationError(
-                f'parameter output: {error.filename}: {error.strerror}, expected a new folder'
-            ) from None
         self.get_logger().info(f'recording into {self._output}')
         self._began = time.monotonic()
         self._recording = Recording(self, None if p.all else p.topics, self._writer)

@@ -12,9 +12,9 @@ from sensor_msgs.msg import JointState
 
 from tactile_push.interface import CONTACT, GEOMETRY_STATE, JOINT_STATES, TACTILE
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
-from tactile_push.nodes.ros.messages import publish, stamp_of
+from tactile_push.nodes.ros.messages import publish
 from tactile_push.nodes.ros.node_time import NodeTime
-from tactile_push.nodes.ros.parameters import ConfigurationError, declare
+from tactile_push.nodes.ros.parameters import declare, refusing
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED, SENSOR_DATA
 from tactile_push.parameters.contact_geometry import (
@@ -23,6 +23,7 @@ from tactile_push.parameters.contact_geometry import (
     take_values,
 )
 from tactile_push.pipeline import Geometry
+from tactile_push.pipeline.stamps import stamp_of
 
 PATIENCE = 0.5  # without a reading, or without one that is of use, before it is an error [s]
 # Counts that are no fault. A finger in the air is none. A message that came twice does no harm; on
@@ -52,10 +53,8 @@ class ContactGeometry(Node):
     def __init__(self) -> None:
         super().__init__(self.NAME)
         self._settings = p = declare(self, ContactGeometryParameters, self._take_parameters)
-        try:
+        with refusing():
             self._finder = make_finder(p)
-        except ValueError as error:
-            raise ConfigurationError(f'parameter {error}') from None
         self._time = NodeTime(self)
         self._geometry = Geometry(self._finder, p.joint_names, self._time.seconds)
         self._counted = Counter(readings=0, contacts=0)

@@ -21,7 +21,7 @@ from tactile_push.interface import (
     PARAMETER_EVENTS,
     RECORDED,
 )
-from tactile_push.nodes.ros.parameters import ConfigurationError, declare
+from tactile_push.nodes.ros.parameters import ConfigurationError, declare, refusing
 from tactile_push.nodes.ros.process import run
 from tactile_push.parameters import ExperimentParameters
 from tactile_push.recording.recording import Recording
@@ -44,12 +44,8 @@ class Experiment(Node):
         self._settings = declare(self, ExperimentParameters)
         if not self._settings.bag:
             raise ConfigurationError('parameter bag: expected a folder')
-        try:
+        with refusing('bag'):
             writer = BagWriter(self._settings.bag)
-        except OSError as error:
-            raise ConfigurationError(
-                f'parameter bag: {error.filename}: {error.strerror}, expected a new folder'
-            ) from None
         self._recording = Recording(self, RECORDED, writer)
         self._awaited = {self.resolve_topic_name(topic) for topic in AWAITED}
         self._controller = self.create_client(ChangeState, 'push_controller/change_state')

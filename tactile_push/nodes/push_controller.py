@@ -22,9 +22,9 @@ from tactile_push.control import HELD, STOPPED, WAITING, Tick
 from tactile_push.interface import COMMAND, CONTACT, CONTROLLER_STATE, JOINT_STATES, RESUME
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.managed import ManagedNode
-from tactile_push.nodes.ros.messages import publish, stamp_of
+from tactile_push.nodes.ros.messages import publish
 from tactile_push.nodes.ros.node_time import NodeTime
-from tactile_push.nodes.ros.parameters import ConfigurationError, declare
+from tactile_push.nodes.ros.parameters import declare, refusing
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED, SENSOR_DATA
 from tactile_push.parameters.push_controller import (
@@ -34,6 +34,7 @@ from tactile_push.parameters.push_controller import (
     take_values,
 )
 from tactile_push.pipeline import Control, edge_angle
+from tactile_push.pipeline.stamps import stamp_of
 
 # A reliable subscription misses no command; a best-effort one hears publishers that are so, too.
 COMMANDS = (
@@ -56,10 +57,8 @@ class PushController(ManagedNode):
     def __init__(self) -> None:
         super().__init__(self.NAME)
         self._settings = declare(self, PushControllerParameters, self._take_parameters)
-        try:
+        with refusing():
             self._control = make_control(self._settings)
-        except ValueError as error:
-            raise ConfigurationError(f'parameter {error}') from None
         self._time = NodeTime(self)
         finger, joint_names = make_finger(self._settings), self._settings.joint_names
         self._steps = Control(self._control, finger, joint_names, self._time.seconds)

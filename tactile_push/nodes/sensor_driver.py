@@ -15,7 +15,7 @@ from tactile_push.devices.reader import Condition, SensorReader
 from tactile_push.interface import TACTILE, TOPICS
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.managed import ManagedNode
-from tactile_push.nodes.ros.parameters import ConfigurationError, declare
+from tactile_push.nodes.ros.parameters import declare, refusing
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED
 from tactile_push.parameters import SensorDriverParameters
@@ -30,10 +30,8 @@ class SensorDriver(ManagedNode):
     def __init__(self) -> None:
         super().__init__(self.NAME)
         self._settings = declare(self, SensorDriverParameters, self._take_parameters)
-        try:
+        with refusing('device'):
             check_url(self._settings.device)
-        except ValueError as error:
-            raise ConfigurationError(f'parameter device: {error}') from None
         none = [math.nan] * 3
         names = list(TOPICS[TACTILE].field_names)
         self._message = JointState(name=names, position=none, velocity=none, effort=none)

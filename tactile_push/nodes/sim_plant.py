@@ -32,7 +32,7 @@ from tactile_push.nodes.ros.compiling import compiling
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.markers import rig_markers
 from tactile_push.nodes.ros.messages import publish
-from tactile_push.nodes.ros.parameters import ConfigurationError, declare
+from tactile_push.nodes.ros.parameters import ConfigurationError, declare, refusing
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED
 from tactile_push.parameters.sim_plant import SimPlantParameters, faults, faults_on, rig_config
@@ -65,12 +65,8 @@ class SimPlant(Node):
             config, beginning = rig_config(p), faults(p)
         except ValueError as error:
             raise ConfigurationError(str(error)) from None
-        try:
+        with refusing('device'):
             self._device = serve(p.device)
-        except ValueError as error:
-            raise ConfigurationError(f'parameter device: {error}') from None
-        except OSError as error:
-            raise ConfigurationError(f'parameter device: {error.strerror}') from None
         self._counts: Counter[str] = Counter({'readings sent': 0, 'commands': 0})
         self._diagnostics = Diagnostics(self, self._health, lambda: self._counts)
         with compiling(self, self._diagnostics):  # which a refusal above need not wait for

@@ -8,6 +8,7 @@ the same time, live or from a bag, get the same one, so that equal stamps give e
 """
 
 from collections.abc import Callable
+from typing import Any
 
 LENGTH = 2**20  # of an epoch [s]: twelve days, within which nanoseconds can be told apart
 
@@ -15,6 +16,12 @@ Stamp = tuple[int, int]
 """Time of a message [s, ns]."""
 Seconds = Callable[[int, int], float]
 """Returns the time [s] of a stamp."""
+
+
+def stamp_of(message: Any) -> Stamp:
+    """Return the stamp of a message with a header."""
+    stamp = message.header.stamp
+    return stamp.sec, stamp.nanosec
 
 
 def epoch_of(sec: int) -> int:

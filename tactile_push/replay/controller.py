@@ -26,8 +26,8 @@ from tactile_push.parameters.push_controller import (
     take_values,
 )
 from tactile_push.pipeline import Control, Stamp, by_name
-from tactile_push.pipeline.stamps import seconds_since
-from tactile_push.replay.messages import Replayed, stamp_of
+from tactile_push.pipeline.stamps import seconds_since, stamp_of
+from tactile_push.replay.messages import Replayed
 
 PATIENCE = 10**9  # how much later than a tick the bag may have a contact that the tick used [ns]
 HALF_A_NANOSECOND = 0.5e-9  # two stamps differ by more [s]

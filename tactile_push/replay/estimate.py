@@ -24,8 +24,8 @@ from tactile_push.paper import object_with
 from tactile_push.parameters import ActiveSensingParameters
 from tactile_push.parameters.active_sensing import make_sensing
 from tactile_push.pipeline import Sensing, by_name
-from tactile_push.pipeline.stamps import epoch_of, seconds_since
-from tactile_push.replay.messages import fingers_of, stamp_of
+from tactile_push.pipeline.stamps import epoch_of, seconds_since, stamp_of
+from tactile_push.replay.messages import fingers_of
 from tactile_push.replay.new_bag import new_bag
 from tactile_push.replay.object_history import ObjectFigures, ObjectHistory
 from tactile_push.replay.parameters import FingerParameters, ParameterFile

@@ -28,11 +28,11 @@ from tactile_push.parameters import (
 from tactile_push.parameters.active_sensing import make_sensing
 from tactile_push.pipeline import Felt, Output, Sensing, Stamp, edge_angle
 from tactile_push.pipeline.orientation import quaternion_of_yaw
-from tactile_push.pipeline.stamps import epoch_of, seconds_since
+from tactile_push.pipeline.stamps import epoch_of, seconds_since, stamp_of
 from tactile_push.replay.comparison import Comparison
 from tactile_push.replay.controller import ReplayedController
 from tactile_push.replay.geometry import ReplayedGeometry
-from tactile_push.replay.messages import Replayed, Written, nanoseconds, stamp_of
+from tactile_push.replay.messages import Replayed, Written, nanoseconds
 from tactile_push.replay.new_bag import NewBag
 from tactile_push.replay.own_ticks import OwnTicks
 from tactile_push.replay.parameters import FingerParameters

@@ -16,8 +16,7 @@ from tactile_push.parameters.contact_geometry import (
 )
 from tactile_push.pipeline import Felt, Geometry, by_name
 from tactile_push.pipeline.geometry import UNREADABLE
-from tactile_push.pipeline.stamps import seconds_since
-from tactile_push.replay.messages import stamp_of
+from tactile_push.pipeline.stamps import seconds_since, stamp_of
 from tactile_push.tactile import REFUSALS
 
 

@@ -3,7 +3,7 @@
 """What a replay reads from a bag and its messages, and what it hands on."""
 
 from collections.abc import Collection
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tactile_push.bags import BagError, BagReader, Message
 from tactile_push.control import Tick
@@ -21,11 +21,6 @@ class Replayed(NamedTuple):
     log_time: int
     tick: Tick | None
     recorded: Tick | None
-
-
-def stamp_of(message: Any) -> Stamp:
-    """Return the stamp of a decoded message with a header [s, ns]."""
-    return message.header.stamp.sec, message.header.stamp.nanosec
 
 
 def nanoseconds(stamp: Stamp) -> int:

@@ -10,9 +10,9 @@ from tactile_push.bags import Message
 from tactile_push.control import Tick
 from tactile_push.interface import OBJECT_POSE, SENSING_STATE
 from tactile_push.pipeline import Sensing, Stamp, by_name
-from tactile_push.pipeline.stamps import stamp_before
+from tactile_push.pipeline.stamps import stamp_before, stamp_of
 from tactile_push.replay.comparison import SensedTick
-from tactile_push.replay.messages import Written, nanoseconds, stamp_of
+from tactile_push.replay.messages import Written, nanoseconds
 
 TOPICS = (SENSING_STATE, OBJECT_POSE)
 _Waiting = tuple[Stamp, int, Tick]

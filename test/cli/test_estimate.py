@@ -96,7 +96,7 @@ def test_nothing_ever_known_is_status_1(tmp_path, capsys):
             ['--config', 'gains.yaml'],
             'gains.yaml: no parameter of a node of the bag, expected some',
         ),
-        (['-o', '.'], 'is there already, expected a new folder'),
+        (['-o', '.'], '.: expected a new folder, got a path that exists'),
         (['--json', 'no/folder.json'], 'no/folder.json: No such file'),
     ],
 )

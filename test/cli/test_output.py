@@ -39,7 +39,13 @@ def test_full_standard_output_is_said_and_is_no_difference(arguments):
 
 
 @pytest.mark.parametrize(
-    'command', [('diff', BAG, BAG), ('info', BAG), ('diff', BAG, BAG, '--json')]
+    'command',
+    [
+        ('diff', BAG, BAG),
+        ('info', BAG),
+        ('diff', BAG, BAG, '--json'),
+        ('simulate', '--steps', '3000', '--json', '-'),
+    ],
 )
 def test_closed_pipe_is_silent_and_is_no_difference(command):
     reading, writing = os.pipe()

@@ -65,4 +65,6 @@ def test_what_is_there_is_never_overwritten(capsys, tmp_path, kind):
         out.symlink_to('nowhere')
     assert main(['record', '-o', str(out)]) == 2
     err = capsys.readouterr().err
-    assert err == f'tactile_push record: --out: {out}: is there already, expected a new folder\n'
+    assert (
+        err == f'tactile_push record: --out: {out}: expected a new folder, got a path that exists\n'
+    )

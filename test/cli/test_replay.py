@@ -85,7 +85,7 @@ def test_file_that_says_nothing_of_any_node_is_refused(text, tmp_path, capsys):
         (['--kp', 'nan'], '--kp'),
         (['--kd', '1001'], 'parameter kd: expected a number'),
         (['--config', 'missing.yaml'], 'missing.yaml'),
-        (['-o', '.'], 'is there already, expected a new folder'),
+        (['-o', '.'], '.: expected a new folder, got a path that exists'),
         (['--json', 'no/folder.json'], 'no/folder.json'),
     ],
 )

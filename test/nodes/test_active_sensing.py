@@ -20,9 +20,10 @@ from tactile_push.interface import (
 )
 from tactile_push.nodes.active_sensing import ActiveSensingNode
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN
-from tactile_push.nodes.ros.messages import filled, stamp_of
+from tactile_push.nodes.ros.messages import filled
 from tactile_push.nodes.ros.parameters import ConfigurationError
 from tactile_push.pipeline.messages import joint_state_fields
+from tactile_push.pipeline.stamps import stamp_of
 
 DISK = {'disk_radius': 0.03}
 TICK = Tick(

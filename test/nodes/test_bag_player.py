@@ -11,8 +11,8 @@ from std_srvs.srv import SetBool, Trigger
 from tactile_push.bags import BagReader
 from tactile_push.nodes.bag_player import BagPlayer
 from tactile_push.nodes.ros.diagnostics import OK, WARN
-from tactile_push.nodes.ros.messages import stamp_of
 from tactile_push.nodes.ros.parameters import ConfigurationError
+from tactile_push.pipeline.stamps import stamp_of
 
 BAG = Path(__file__).parents[1] / 'data/block'
 COMMANDS = {'bag': BAG, 'topics': ['finger/cmd_vel'], 'start_paused': True}

@@ -80,7 +80,7 @@ def test_a_bag_without_a_name_is_refused(bench):
 
 
 def test_a_folder_that_exists_is_refused(bench, tmp_path):
-    with pytest.raises(ConfigurationError, match='parameter bag: .* expected a new folder'):
+    with pytest.raises(ConfigurationError, match='parameter bag: .*: expected a new folder'):
         bench.start(Experiment, bag=tmp_path)
 
 

@@ -16,9 +16,10 @@ from tactile_push.control import ANOTHER_COMMAND, PUSHING, STATES, STOP_REASONS,
 from tactile_push.interface import COMMAND, CONTACT, CONTROLLER_STATE, PUSH_CONTROLLER, TOPICS
 from tactile_push.nodes.push_controller import PushController
 from tactile_push.nodes.ros.diagnostics import ERROR, OK
-from tactile_push.nodes.ros.messages import filled, stamp_of
+from tactile_push.nodes.ros.messages import filled
 from tactile_push.nodes.ros.parameters import ConfigurationError
 from tactile_push.pipeline.messages import pose_fields
+from tactile_push.pipeline.stamps import stamp_of
 
 RATE = {'control_rate': 50.0, 'max_ticks_lost': 100}
 

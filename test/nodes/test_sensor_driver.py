@@ -12,9 +12,9 @@ from support.node_bench import declared_topics
 from tactile_push.devices import Sentence, encode
 from tactile_push.interface import SENSOR_DRIVER, TACTILE, TOPICS
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN
-from tactile_push.nodes.ros.messages import stamp_of
 from tactile_push.nodes.ros.parameters import ConfigurationError
 from tactile_push.nodes.sensor_driver import SensorDriver
+from tactile_push.pipeline.stamps import stamp_of
 from tactile_push.simulation import serve
 from tactile_push.tactile import Reading
 

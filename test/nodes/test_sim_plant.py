@@ -23,9 +23,9 @@ from tactile_push.interface import (
     TRUE_STATE,
 )
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN
-from tactile_push.nodes.ros.messages import stamp_of
 from tactile_push.nodes.ros.parameters import ConfigurationError
 from tactile_push.nodes.sim_plant import SimPlant
+from tactile_push.pipeline.stamps import stamp_of
 
 
 @pytest.fixture

@@ -1,11 +1,20 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
+from types import SimpleNamespace
+
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tactile_push.pipeline.stamps import epoch_of, seconds_since, stamp_before
+from tactile_push.pipeline.stamps import epoch_of, seconds_since, stamp_before, stamp_of
 
 NOW = 1_795_000_000  # some day in 2026 [s]
+
+
+@pytest.mark.parametrize('stamp', [(0, 0), (NOW, 1), (-3, 999_999_999)])
+def test_stamp_is_that_of_the_header(stamp):
+    header = SimpleNamespace(stamp=SimpleNamespace(sec=stamp[0], nanosec=stamp[1]))
+    assert stamp_of(SimpleNamespace(header=header)) == stamp
 
 
 def test_simulated_time_counts_from_its_own_start():

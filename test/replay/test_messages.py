@@ -2,13 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Stamps of messages, and which topics of a bag belong to which finger."""
 
-from types import SimpleNamespace
-
 import pytest
 
 from tactile_push.bags import BagError, BagReader, BagWriter
 from tactile_push.interface import CONTACT, TACTILE
-from tactile_push.replay.messages import fingers_of, nanoseconds, stamp_of
+from tactile_push.replay.messages import fingers_of, nanoseconds
 
 JOINTS, POSE = 'sensor_msgs/msg/JointState', 'geometry_msgs/msg/PoseStamped'
 
@@ -29,8 +27,6 @@ def found(folder, topics, having, needed):
     [((0, 0), 0), ((1_795_000_000, 5), 1_795_000_000_000_000_005), ((-1, 3), 3 - 10**9)],
 )
 def test_stamp_is_a_time_to_the_nanosecond(stamp, time):
-    header = SimpleNamespace(stamp=SimpleNamespace(sec=stamp[0], nanosec=stamp[1]))
-    assert stamp_of(SimpleNamespace(header=header)) == stamp
     assert nanoseconds(stamp) == time
 
 

@@ -1,20 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Between ROS messages and the stamps and fields of `tactile_push.pipeline`."""
+"""Turns the fields of `tactile_push.pipeline` into ROS messages."""
 
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from rclpy.publisher import Publisher
 
-from tactile_push.pipeline import Fields, Stamp
+from tactile_push.pipeline import Fields
 
 Message = TypeVar('Message')
-
-
-def stamp_of(message: Any) -> Stamp:
-    """Return the stamp of a message with a header [s, ns]."""
-    stamp = message.header.stamp
-    return stamp.sec, stamp.nanosec
 
 
 def filled(message: Message, fields: Fields) -> Message:

@@ -3,7 +3,8 @@
 """Declares the parameters of a node with ROS, and refuses what is no value of theirs."""
 
 import difflib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any, TypeVar
 
@@ -25,6 +26,19 @@ P = TypeVar('P', bound=NodeParameters)
 
 class ConfigurationError(Exception):
     """A node cannot start as it was asked to; the message is for the person who asked."""
+
+
+@contextmanager
+def refusing(name: str = '') -> Iterator[None]:
+    """Refuse to start for the error of a block, which names the parameter unless that is given."""
+    at = f'parameter {name}: ' if name else 'parameter '
+    try:
+        yield
+    except ValueError as error:
+        raise ConfigurationError(f'{at}{error}') from None
+    except OSError as error:
+        file = f'{error.filename}: ' if error.filename else ''
+        raise ConfigurationError(f'{at}{file}{error.strerror}') from None
 
 
 def descriptor(parameter: Parameter) -> ParameterDescriptor:
