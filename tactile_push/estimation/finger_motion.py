@@ -40,8 +40,9 @@ class FingerMotion:
         velocity : float, optional
             Velocity that the finger has and goes on with until a command [m/s].
         """
-        self._time = time  # up to which it has been followed
+        self._start = self._time = time  # from and up to which it has been followed
         self._velocity = self._wanted = velocity
+        self._owed = 0.0  # way that was told of too little [m]
         self._commands: deque[tuple[float, float]] = deque()
 
     def command(self, time: float, velocity: float) -> None:
@@ -52,9 +53,20 @@ class FingerMotion:
         time : float
             When it was given [s], not before the one before it.
         velocity : float
-            Velocity from then on [m/s].
+            Velocity from then on [m/s]. If the finger has been followed further already, without
+            this command, the next way makes up for the difference.
         """
-        self._commands.append((time + self.delay, velocity))
+        begin = time + self.delay
+        if begin < self._time:
+            # Answers add up: what is missing is the answer to the step between two commands.
+            step = velocity - self._wanted
+            way, gained = self._answer(self._time - begin)
+            before, _ = self._answer(max(self._start - begin, 0.0))
+            self._owed += step * (way - before)
+            self._velocity += step * gained
+            self._wanted = velocity
+        else:
+            self._commands.append((begin, velocity))
 
     def way(self, time: float) -> float:
         """Return how far the finger moves from the last moment asked for to a later one.
@@ -69,12 +81,17 @@ class FingerMotion:
         float
             The way [m].
         """
-        way = 0.0
+        way, self._owed = self._owed, 0.0
         while self._commands and self._commands[0][0] <= time:
             begin, velocity = self._commands.popleft()
             way += self._follow(begin)
             self._wanted = velocity
         return way + self._follow(time)
+
+    def _answer(self, duration: float) -> tuple[float, float]:
+        """Return way [s] and velocity of the answer to a step of 1, so long after it [s]."""
+        share = 1.0 - math.exp(-duration / self.lag) if self.lag > 0.0 else 1.0
+        return duration - self.lag * share, share
 
     def _follow(self, time: float) -> float:
         """Go on with the wanted velocity."""

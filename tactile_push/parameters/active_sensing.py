@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tactile_push.control import Limits
 from tactile_push.paper import BLOCK_EDGE, BLOCK_L
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
@@ -52,8 +53,9 @@ class ActiveSensingParameters(NodeParameters):
     finger_delay: float = parameter(0.0, 's',
         'time before a command has any effect on the finger', 0.0, 10.0, read_only=True)
     belt_speed: float = shared.belt_speed
-    contact_timeout: float = parameter(0.3, 's',
-        'after longer without a reading or a control period the estimate starts over',
+    contact_timeout: float = parameter(Limits().contact_timeout, 's',
+        'after longer without a reading or a control period the estimate starts over, and a '
+        'reading that is stamped further ahead does not count',
         0.01, 10.0, read_only=True)
     # fmt: on
 

@@ -63,6 +63,57 @@ def test_push_is_the_motion_between_two_readings(sensing, listener):
     assert sensing.readings == 3
 
 
+def test_push_ends_when_the_reading_is_stamped_even_if_that_is_ahead(sensing, listener):
+    # From 20 ms after each tick to 20 ms after the next one: 80 ms of one command, 20 of the next.
+    sensing.tick(1.0, 0.30, -0.02, 0.001)
+    sensing.tick(1.1, 0.31, -0.02, 0.004)
+    sensing.tick(1.2, 0.32, -0.02, 0.002)
+    assert listener.pushes == [
+        pytest.approx((0.30, 0.0, BELT, 0.0)),
+        pytest.approx((0.31, 0.8 * 0.001 + 0.2 * 0.004, BELT, 0.1)),
+        pytest.approx((0.32, 0.8 * 0.004 + 0.2 * 0.002, BELT, 0.1)),
+    ]
+    assert sensing.readings == 3
+    assert sensing.age == -0.02
+
+
+@pytest.mark.parametrize('ahead', [1e-9, 0.02, 0.2999])
+def test_reading_that_is_ahead_is_a_reading(sensing, ahead):
+    for k in range(20):
+        sensing.tick(1.0 + 0.1 * k, 0.3, -ahead, 0.001)
+        assert (sensing.forgot, sensing.readings, sensing.took) == ('', k + 1, True)
+
+
+def test_commands_between_tick_and_stamp_are_made_up_for_in_the_next_push(sensing, listener):
+    # Stamped 150 ms ahead, in every other tick. Commands change at 1.0, 1.1, ..., 1.5.
+    sensing.tick(1.0, 0.30, -0.15, 0.001)
+    sensing.tick(1.1, 0.30, -0.05, 0.004)
+    sensing.tick(1.2, 0.31, -0.15, 0.002)  # 1.15 to 1.35
+    sensing.tick(1.3, 0.31, -0.05, 0.003)  # the finger has 50 ms more of 3 than of 2 mm/s
+    sensing.tick(1.4, 0.32, -0.15, 0.005)  # 1.35 to 1.55
+    sensing.tick(1.5, 0.32, -0.05, 0.000)
+    told = 0.05 * 0.004 + 0.15 * 0.002, 0.05 * 0.001 + 0.05 * 0.003 + 0.15 * 0.005
+    assert listener.pushes == [
+        pytest.approx((0.30, 0.0, BELT, 0.0)),
+        *(
+            pytest.approx((theta, way / 0.2, BELT, 0.2))
+            for theta, way in zip((0.31, 0.32), told, strict=True)
+        ),
+    ]
+
+
+def test_clock_that_is_ahead_does_not_make_a_reading_last_longer(sensing, listener):
+    for stamp in (1.0, 1.125, 1.25):
+        sensing.tick(stamp, 0.3, stamp - 1.25, 0.001)
+        assert (sensing.readings, sensing.forgot) == (1, '')
+    sensing.tick(1.375, 0.3, 0.125, 0.001)
+    assert (sensing.readings, sensing.forgot) == (0, 'contact lost')
+    sensing.tick(1.5, 0.3, 0.25, 0.001)  # the same reading again
+    assert sensing.readings == 0
+    sensing.tick(1.625, 0.31, -0.25, 0.001)
+    assert (sensing.readings, sensing.forgot) == (1, '')
+
+
 def test_reading_that_comes_again_is_no_reading(sensing, listener):
     sensing.tick(1.0, 0.30, 0.0, 0.001)
     sensing.tick(1.1, 0.30, 0.1, 0.002)
@@ -91,7 +142,7 @@ def test_older_reading_is_no_reading(sensing, listener):
     [
         ((1.2, math.nan, 0.0, 0.0), 'contact lost'),
         ((1.2, 0.3, 0.35, 0.0), 'contact lost'),
-        ((1.2, 0.3, -0.1, 0.0), 'contact lost'),
+        ((1.2, 0.3, -0.35, 0.0), 'contact lost'),
         ((1.2, 0.3, -math.inf, 0.0), 'contact lost'),
         ((1.2, 0.3, math.nan, 0.0), 'contact lost'),
         ((1.45, 0.3, 0.0, 0.0), 'ticks missing'),
@@ -159,9 +210,21 @@ def test_finger_that_lags_is_followed(listener):
     assert listener.pushes[-1][1] == pytest.approx(0.01 * math.exp(-1.0))
 
 
+def test_finger_that_lags_is_followed_to_a_stamp_that_is_ahead(listener):
+    sensing = ActiveSensing(listener, FingerMotion(lag=0.1), BELT, 0.3)
+    sensing.tick(1.0, math.nan, 0.0, 0.01)
+    sensing.tick(1.1, 0.30, -0.05, 0.0)  # from 0.01 m/s the finger comes to rest
+    sensing.tick(1.2, 0.31, -0.05, 0.01)
+    # Rate x lag x what decays of it, from 50 to 150 ms after the stop. At 100 ms the finger begins
+    # to follow the new command, in 50 ms for 0.01 (0.05 - 0.1 (1 - exp(-1/2))) m.
+    rest = 0.01 * 0.1 * (math.exp(-0.5) - math.exp(-1.5))
+    again = 0.01 * (0.05 - 0.1 * (1.0 - math.exp(-0.5)))
+    assert listener.pushes[-1] == pytest.approx((0.31, (rest + again) / 0.1, BELT, 0.1))
+
+
 ANYTHING = st.floats() | st.floats(-1.6, 1.6)
 SENSIBLE = st.tuples(
-    st.floats(0.0, 0.2), st.floats(-0.6, 0.6), st.floats(0.0, 0.3), st.floats(-0.02, 0.02)
+    st.floats(0.0, 0.2), st.floats(-0.6, 0.6), st.floats(-0.3, 0.3), st.floats(-0.02, 0.02)
 )
 TICKS = st.lists(SENSIBLE | st.tuples(st.floats(-1e9, 1e9), ANYTHING, ANYTHING, ANYTHING))
 TRIANGLE = [[-0.02, -0.02], [0.04, -0.02], [-0.02, 0.04]]

@@ -55,6 +55,37 @@ def test_ways_add_up_however_often_one_asks(commands, lag, delay, questions):
     assert total == pytest.approx(once.way(end), abs=1e-12)
 
 
+@given(
+    st.lists(st.tuples(DURATIONS, VELOCITIES, st.floats(0.0, 1.0)), min_size=1, max_size=8),
+    st.floats(0.0, 0.3),
+    st.floats(0.0, 0.3),
+    st.floats(0.0, 1.0),
+    VELOCITIES,
+)
+def test_ways_add_up_although_the_finger_is_followed_ahead_of_its_commands(
+    commands, lag, delay, start, velocity
+):
+    once, ahead = FingerMotion(lag, delay), FingerMotion(lag, delay)
+    once.reset(0.0, velocity)
+    ahead.reset(start, velocity)
+    now, asked, total = 0.0, start, 0.0
+    for duration, wanted, further in commands:
+        once.command(now, wanted)
+        ahead.command(now, wanted)
+        asked = max(asked, now + further)
+        total += ahead.way(asked)
+        now += duration
+    end = max(asked, now)
+    total += ahead.way(end)
+    until_start = FingerMotion(lag, delay)
+    until_start.reset(0.0, velocity)
+    now = 0.0
+    for duration, wanted, _ in commands:
+        until_start.command(now, wanted)
+        now += duration
+    assert total == pytest.approx(once.way(end) - until_start.way(start), abs=1e-12)
+
+
 def test_it_may_start_while_it_moves():
     motion = FingerMotion(lag=0.1)
     motion.reset(1.0, 0.004)

@@ -7,10 +7,14 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
+from support.clock_apart import periods, seconds
 from tactile_push.control import NO_REASON, PUSHING, PushLaw, Tick, tick_values
 from tactile_push.interface import OBJECT_POSE, SENSING_STATE
 from tactile_push.parameters.active_sensing import ActiveSensingParameters, make_sensing
+from tactile_push.parameters.push_controller import PushControllerParameters, make_control
 from tactile_push.pipeline import Sensing
 from tactile_push.pipeline.sensing import Sensed
 
@@ -96,3 +100,44 @@ def test_object_that_readings_contradict_is_not_known():
     assert sensed().known
     assert not sensed(estimate={'contradiction': 'it moves by itself'}).known
     assert not sensed(values={'readings': 0.0}).known
+
+
+@pytest.mark.parametrize('ahead', [-280, -150, -20, 0, 20, 150, 280])
+def test_object_is_known_whenever_the_controller_pushes_whatever_the_sensors_clock_says(ahead):
+    sensing = Sensing(make_sensing(ActiveSensingParameters()), seconds)
+    pushed, known, right = 0, 0, 0
+    for period in periods(ahead * 1_000_000, 67):
+        sensed = sensing.tick(period.stamp, period.tick)
+        values = sensed.values
+        pushes = period.tick.state == PUSHING
+        assert sensed.known == math.isfinite(values['d']) == pushes
+        if pushes:
+            assert values['d_least'] <= period.true_d <= values['d_most']
+            assert values['age'] == pytest.approx(-1e-3 * ahead, abs=1e-6)
+        pushed += pushes
+        known += sensed.known
+        right += values['d_lower'] <= period.true_d <= values['d_upper']
+    assert pushed == known >= 63
+    if abs(ahead) <= 20:
+        assert right >= 63
+
+
+# How long after the last one a tick comes, and how far ahead of it its reading is stamped [ms].
+TICKS = st.tuples(st.integers(80, 120), st.none() | st.integers(-450, 450))
+
+
+@given(st.lists(TICKS, min_size=5, max_size=60))
+def test_readings_count_exactly_as_long_as_the_controller_believes_them(ticks):
+    push = make_control(PushControllerParameters())
+    push.activate(0.0)
+    disk = ActiveSensingParameters.of({'disk_radius': RADIUS})
+    sensing = Sensing(make_sensing(disk), lambda sec, millisec: sec + millisec * 1e-3)
+    now = 10_000  # [ms]
+    for later, ahead in ticks:
+        now += later
+        stamp = divmod(now, 1000)
+        if ahead is not None:
+            push.feel(0.1, (now + ahead) * 1e-3)
+        done = push.tick(stamp[0] + stamp[1] * 1e-3)
+        sensed = sensing.tick(stamp, done)
+        assert (sensed.values['readings'] > 0.0) == (done.state == PUSHING)

@@ -7,10 +7,14 @@ import math
 
 import pytest
 
+from support.bag_making import encode, write_file
+from support.clock_apart import periods
 from support.sensed_bag import DATA, POSE, STATE, said_by_a_node, with_sensing
 from tactile_push.bags import BagReader, BagWriter
 from tactile_push.cli import main
+from tactile_push.interface import CONTACT, TOPICS
 from tactile_push.replay import replay
+from tactile_push.replay.messages import nanoseconds
 
 BAGS = ['block', 'stops']
 
@@ -169,3 +173,35 @@ def test_command_tells_d_at_the_end_and_of_every_control_period(bag, said, tmp_p
             assert ours[name] == (None if math.isnan(theirs[name]) else theirs[name])
     assert main(['replay', str(bag), '--json', '-']) == 0
     assert json.loads(capsys.readouterr().out)['fingers'][0]['sensed'] is None
+
+
+def bag_of_a_clock_apart(path, ahead):
+    """Write a bag of the block, pushed on contacts whose stamps are ahead by so many ns."""
+    topics = {}
+    for period in periods(ahead, 67):
+        outputs = [(CONTACT, contact) for contact in period.contacts]
+        outputs += period.control.outputs(period.stamp, period.tick)
+        for topic, fields in outputs:
+            kind = TOPICS[topic].type_name
+            _, messages = topics.setdefault(f'/{topic}', (kind, []))
+            messages.append((nanoseconds(period.stamp), encode(kind, **fields)))
+    notes = {'tactile_push.parameters': json.dumps({'push_controller': {}})}
+    return write_file(path, topics, notes)
+
+
+@pytest.mark.parametrize('ahead', [-280_000_000, 1, 20_000_000, 280_000_000])
+def test_what_a_node_made_of_readings_of_another_clock_comes_out_again(tmp_path, ahead):
+    bag = bag_of_a_clock_apart(tmp_path / 'bag.mcap', ahead)
+    live = with_sensing(bag, said_by_a_node(bag), tmp_path / 'live')
+    (comparison,) = run(live, out=tmp_path / 'again')
+    assert not comparison.different()
+    assert same(live, tmp_path / 'again')
+    assert readings_of(live)[-1] >= 63
+    with BagReader(live) as reader:
+        assert len(comparison.sensed) == reader.counts[STATE] == 67
+        stamps = [reader.decode(message).header.stamp for message in reader.messages([POSE])]
+        contacts = [
+            reader.decode(message).header.stamp for message in reader.messages(['/contact'])
+        ]
+    read = {(stamp.sec, stamp.nanosec) for stamp in contacts}
+    assert read.issuperset((stamp.sec, stamp.nanosec) for stamp in stamps)

@@ -4,15 +4,19 @@
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
+from rclpy.duration import Duration
+from rclpy.time import Time
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
+from tactile_push.control import PUSHING, STATES
 from tactile_push.estimation import CONTRADICTIONS
 from tactile_push.parameters.config_file import config_file
 from tactile_push.pipeline.orientation import yaw_of_quaternion
@@ -187,6 +191,39 @@ def test_lost_contact_is_forgotten_and_found_again(
     )
     counts = {v.key: v.value for v in sensing.reports()[-1].values}
     assert int(counts['forgot everything: contact lost']) >= 1
+
+
+def test_sensor_whose_clock_is_ahead_is_heard_as_the_controller_hears_it(
+    nodes: NodeProcesses, sensing: Sensing, rig: Rig, observer: Observer, tmp_path: Path
+):
+    block = {'config': config_file('block.yaml')}
+    ahead = observer.node.create_publisher(PoseStamped, 'contact', 10)
+
+    def pass_on(message: PoseStamped) -> None:
+        stamp = Time.from_msg(message.header.stamp) + Duration(nanoseconds=20_000_000)
+        message.header.stamp = stamp.to_msg()
+        ahead.publish(message)
+
+    observer.node.create_subscription(PoseStamped, 'contact_in_time', pass_on, 10)
+    sensing.start(use_sim_time=False)
+    device = {'device': str(tmp_path / 'sensor')}
+    nodes.start('push_controller', **block)
+    nodes.start('sim_plant', {**device, 'sensor_noise': NOISE}, **block)
+    nodes.start('sensor_driver', device)
+    nodes.start('contact_geometry', **block, arguments=('-r', 'contact:=contact_in_time'))
+    pushing = float(STATES.index(PUSHING))
+
+    def ticks() -> list[JointState]:
+        first = [k for k, s in enumerate(rig.states) if field(s, 'state') == pushing]
+        return rig.states[first[0] :][:67] if first else []
+
+    observer.wait_for(lambda: len(ticks()) == 67, '67 control periods')
+    stamps = {seconds(s) for s in ticks() if field(s, 'state') == pushing}
+    observer.wait_for(lambda: seconds(sensing.states[-1]) >= max(stamps), 'what they tell')
+    known = {seconds(s) for s in sensing.states if math.isfinite(field(s, 'd'))}
+    assert len(stamps) >= 63
+    assert stamps <= known
+    assert np.median([field(s, 'age') for s in sensing.states if seconds(s) in stamps]) < 0.0
 
 
 def test_ticks_without_sense_do_no_harm(sensing: Sensing, observer: Observer):
