@@ -10,34 +10,20 @@ from dataclasses import dataclass
 class Limits:
     """When to stop and how fast to go at the most; docs/safety.md has the reasons.
 
-    Parameters
-    ----------
-    contact_timeout : float
-        Age of the last contact beyond which the finger stops [s].
-    joint_state_timeout : float
-        Age of the finger's last known position beyond which it stops [s], if it was ever known.
-    max_ticks_lost : int
-        Control periods in a row without a tick beyond which the finger stops.
-    max_speed : float
-        Bound on |v_x| [m/s].
-    max_acceleration : float
-        Bound on the change of v_x [m/s^2]. A stop is not bounded.
-    workspace_min, workspace_max : float
-        Where the centre of the finger's disk may be across the belt, x in `finger_base` [m].
-
     Raises
     ------
     ValueError
         If a bound is not positive or the workspace is empty.
     """
 
-    contact_timeout: float = 0.3
+    contact_timeout: float = 0.3  #: age of the last contact beyond which the finger stops [s]
+    #: age of the finger's last known position beyond which it stops, if it was ever known [s]
     joint_state_timeout: float = 0.3
-    max_ticks_lost: int = 3
-    max_speed: float = 0.02
-    max_acceleration: float = 0.05
-    workspace_min: float = -0.105
-    workspace_max: float = 0.105
+    max_ticks_lost: int = 3  #: control periods in a row without a tick beyond which it stops
+    max_speed: float = 0.02  #: bound on |v_x| [m/s]
+    max_acceleration: float = 0.05  #: bound on the change of v_x [m/s^2]; a stop is not bounded
+    workspace_min: float = -0.105  #: least x of the finger's disk in `finger_base` [m]
+    workspace_max: float = 0.105  #: greatest x of the finger's disk in `finger_base` [m]
 
     def __post_init__(self) -> None:
         for name in ('contact_timeout', 'joint_state_timeout', 'max_speed', 'max_acceleration'):

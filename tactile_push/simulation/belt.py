@@ -12,25 +12,17 @@ from tactile_push.simulation.servo import FLAT
 class Belt:
     """How the belt runs; by default at its speed all the time.
 
-    Parameters
-    ----------
-    ripple : float, optional
-        Amplitude of the sine by which the speed goes up and down, relative to the speed; below 1,
-        as the belt never runs backwards.
-    frequency : float, optional
-        Frequency of the ripple [Hz].
-    stopped : bool, optional
-        Whether the belt stands.
-
     Raises
     ------
     ValueError
         If a number is out of its range.
     """
 
+    #: amplitude of the sine by which the speed goes up and down, relative to the speed; below 1,
+    #: as the belt never runs backwards
     ripple: float = 0.0
-    frequency: float = 1.0
-    stopped: bool = False
+    frequency: float = 1.0  #: of the ripple [Hz]
+    stopped: bool = False  #: whether the belt stands
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.ripple < 1.0:

@@ -12,27 +12,13 @@ from tactile_push.simulation.uneven_friction import UnevenFriction
 
 @dataclass(frozen=True)
 class Faults:
-    """How far the rig is from a perfect one; by default not at all.
+    """How far the rig is from a perfect one; by default not at all."""
 
-    Parameters
-    ----------
-    servo : Servo, optional
-        How the finger follows its command.
-    workspace : Workspace, optional
-        Where the finger may be.
-    belt : Belt, optional
-        How the belt runs.
-    friction : UnevenFriction, optional
-        How mu_c varies around the object.
-    sensor : Sensor, optional
-        How the sensor errs.
-    """
-
-    servo: Servo = Servo()
-    workspace: Workspace = Workspace()
-    belt: Belt = Belt()
-    friction: UnevenFriction = UnevenFriction()
-    sensor: Sensor = Sensor()
+    servo: Servo = Servo()  #: how the finger follows its command
+    workspace: Workspace = Workspace()  #: where the finger may be
+    belt: Belt = Belt()  #: how the belt runs
+    friction: UnevenFriction = UnevenFriction()  #: how mu_c varies around the object
+    sensor: Sensor = Sensor()  #: how the sensor errs
 
 
 NO_FAULTS = Faults()

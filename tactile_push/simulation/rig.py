@@ -39,36 +39,21 @@ class RigConfig:
 
     The finger starts with its pole along the belt and touches the object.
 
-    Parameters
-    ----------
-    slider : Slider
-        What the finger pushes; it starts on the first piece of its outline.
-    mu_c : float
-        Coefficient of friction between finger and object, 0 to infinity.
-    theta : float
-        Angle of the pushed edge or tangent at the start [rad].
-    d : float or None
-        Contact along the edge at the start [m]; None for the one with the smallest d.
-    belt_speed : float
-        Speed of the belt, v_y [m/s].
-    radius : float
-        Effective radius of the finger's disk [m].
-    finger : PlanarFinger
-        The finger's links.
-
     Raises
     ------
     ValueError
         If a number is out of its range or the start is no contact that pushes.
     """
 
-    slider: Slider
-    mu_c: float
-    theta: float
-    d: float | None
-    belt_speed: float = paper.BELT_SPEED
-    radius: float = paper.FINGER_RADIUS
-    finger: PlanarFinger = PlanarFinger(0.06, 0.08, math.pi / 2.0)
+    slider: Slider  #: what the finger pushes, on the first piece of its outline at the start
+    mu_c: float  #: coefficient of friction between finger and object, 0 to infinity
+    theta: float  #: angle of the pushed edge or tangent at the start [rad]
+    d: (
+        float | None
+    )  #: contact along the edge at the start [m]; None for the one with the smallest d
+    belt_speed: float = paper.BELT_SPEED  #: speed of the belt, v_y [m/s]
+    radius: float = paper.FINGER_RADIUS  #: effective radius of the finger's disk [m]
+    finger: PlanarFinger = PlanarFinger(0.06, 0.08, math.pi / 2.0)  #: its links
 
     def __post_init__(self) -> None:
         for name in ('belt_speed', 'radius'):

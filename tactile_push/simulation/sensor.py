@@ -21,39 +21,20 @@ class Sensor:
     Noise, bias and quantum act on the contact's angle in the plane of motion, from the pole to the
     left.
 
-    Parameters
-    ----------
-    noise : float, optional
-        Standard deviation of the Gaussian noise [rad].
-    bias : float, optional
-        Constant error [rad].
-    quantum : float, optional
-        Angles are whole multiples of it [rad]; 0 for all angles.
-    latency : float, optional
-        Time from the reading to the sentence [s].
-    dropout : float, optional
-        Probability that a reading is lost on the way.
-    outlier : float, optional
-        Probability that a reading is wrong: anywhere on the hemisphere, evenly.
-    stuck : bool, optional
-        Whether it reads the last value for ever.
-    detectable_range : float, optional
-        Largest angle from the pole at which it feels a contact [rad].
-
     Raises
     ------
     ValueError
         If a number is out of its range.
     """
 
-    noise: float = 0.0
-    bias: float = 0.0
-    quantum: float = 0.0
-    latency: float = 0.0
-    dropout: float = 0.0
-    outlier: float = 0.0
-    stuck: bool = False
-    detectable_range: float = math.pi / 2.0
+    noise: float = 0.0  #: standard deviation of the Gaussian noise [rad]
+    bias: float = 0.0  #: constant error [rad]
+    quantum: float = 0.0  #: angles are whole multiples of it [rad]; 0 for all angles
+    latency: float = 0.0  #: time from the reading to the sentence [s]
+    dropout: float = 0.0  #: probability that a reading is lost on the way
+    outlier: float = 0.0  #: probability that a reading is anywhere on the hemisphere, evenly
+    stuck: bool = False  #: whether it reads the last value for ever
+    detectable_range: float = math.pi / 2.0  #: it feels contacts so far from the pole [rad]
 
     def __post_init__(self) -> None:
         for name in ('noise', 'quantum', 'latency', 'detectable_range'):

@@ -21,24 +21,15 @@ class Servo:
     What arrives after the delay is rounded to whole quanta and then followed by a lag of first
     order.
 
-    Parameters
-    ----------
-    time_constant : float, optional
-        Of the lag [s]: after so long a velocity has made 63 % of a step of its command.
-    delay : float, optional
-        Between a command and its first effect [s].
-    velocity_quantum : float, optional
-        Velocities are whole multiples of it [m/s]; 0 for all velocities.
-
     Raises
     ------
     ValueError
         If a number is negative or not finite.
     """
 
-    time_constant: float = 0.0
-    delay: float = 0.0
-    velocity_quantum: float = 0.0
+    time_constant: float = 0.0  #: of the lag [s], after which 63 % of a step of the command is made
+    delay: float = 0.0  #: between a command and its first effect [s]
+    velocity_quantum: float = 0.0  #: velocities are whole multiples of it [m/s]; 0 for any
 
     def __post_init__(self) -> None:
         for name in ('time_constant', 'delay', 'velocity_quantum'):
@@ -51,19 +42,14 @@ class Servo:
 class Workspace:
     """Where the centre of the finger's disk may be across the belt; by default anywhere.
 
-    Parameters
-    ----------
-    lower, upper : float, optional
-        Bounds on x in `finger_base` [m].
-
     Raises
     ------
     ValueError
         If there is no place between the bounds.
     """
 
-    lower: float = -math.inf
-    upper: float = math.inf
+    lower: float = -math.inf  #: least x in `finger_base` [m]
+    upper: float = math.inf  #: greatest x in `finger_base` [m]
 
     def __post_init__(self) -> None:
         if not self.lower < self.upper:

@@ -14,21 +14,14 @@ class UnevenFriction:
 
     Without friction there is nothing to vary, and infinite friction stays infinite.
 
-    Parameters
-    ----------
-    ripple : float, optional
-        Amplitude of the sine by which mu_c goes up and down, relative to mu_c; below 1.
-    length : float, optional
-        Wavelength along the path of the finger's disk around the object [m].
-
     Raises
     ------
     ValueError
         If a number is out of its range.
     """
 
-    ripple: float = 0.0
-    length: float = 0.005
+    ripple: float = 0.0  #: amplitude of a sine in mu_c, relative to mu_c; below 1
+    length: float = 0.005  #: wavelength along the path of the finger's disk around the object [m]
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.ripple < 1.0:

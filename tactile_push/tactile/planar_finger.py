@@ -27,24 +27,15 @@ class PlanarFinger:
     The first moving joint is the origin of `finger_base`. The second link ends at the centre of
     the finger's disk and points along the finger tip's pole.
 
-    Parameters
-    ----------
-    proximal_length : float
-        Distance between the two moving joints [m].
-    distal_length : float
-        Distance from the second moving joint to the centre of the disk [m].
-    mount_angle : float
-        Angle of the finger at joint angles zero [rad]: what the fixed joint leaves it at.
-
     Raises
     ------
     ValueError
         If a length is not positive or a number is not finite.
     """
 
-    proximal_length: float
-    distal_length: float
-    mount_angle: float
+    proximal_length: float  #: between the two moving joints [m]
+    distal_length: float  #: from the second moving joint to the centre of the disk [m]
+    mount_angle: float  #: of the finger at joint angles zero [rad], as the fixed joint leaves it
 
     def __post_init__(self) -> None:
         for name in ('proximal_length', 'distal_length'):
