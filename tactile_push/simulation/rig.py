@@ -48,9 +48,7 @@ class RigConfig:
     slider: Slider  #: what the finger pushes, on the first piece of its outline at the start
     mu_c: float  #: coefficient of friction between finger and object, 0 to infinity
     theta: float  #: angle of the pushed edge or tangent at the start [rad]
-    d: (
-        float | None
-    )  #: contact along the edge at the start [m]; None for the one with the smallest d
+    d: float | None  #: contact along the edge at the start [m]; None for the smallest
     belt_speed: float = paper.BELT_SPEED  #: speed of the belt, v_y [m/s]
     radius: float = paper.FINGER_RADIUS  #: effective radius of the finger's disk [m]
     finger: PlanarFinger = PlanarFinger(0.06, 0.08, math.pi / 2.0)  #: its links
