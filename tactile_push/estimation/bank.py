@@ -9,14 +9,12 @@ import numpy as np
 
 from tactile_push.estimation import hypotheses
 from tactile_push.estimation.hypotheses import THETA, D, ModelErrors
-from tactile_push.estimation.mixture import quantile
+from tactile_push.estimation.mixture import hull_of_intervals
 from tactile_push.estimation.prior import Prior, spread
 from tactile_push.estimation.resistance import Push
 from tactile_push.mechanics.compiled import Array
 
 LONGEST_PUSH = 1e-3  # of the hypotheses [m]: a longer one is taken in parts
-KIND_EXCLUDED = 0.05  # evidence of a kind of friction, of the best one's, that excludes it
-LOWER, UPPER = 0.025, 0.975
 HYPOTHESIS_GONE = 11.0  # one less likely than the best by exp(11), 6e4 times, is dropped
 
 
@@ -107,16 +105,8 @@ class Bank:
 
         Kinds whose evidence is far below the best one's are left out.
         """
-        weights = self.weights
-        evidence = np.bincount(self._kinds, weights, minlength=3) / self._shares
-        ends = np.searchsorted(self._kinds, range(len(evidence) + 1))
-        lower, upper = math.inf, -math.inf
-        for kind in np.flatnonzero(evidence > KIND_EXCLUDED * max(evidence)):
-            members = slice(ends[kind], ends[kind + 1])
-            means = self._means[members, which]
-            variances = self._covariances[members, which, which]
-            lower = min(lower, quantile(weights[members], means, variances, LOWER))
-            upper = max(upper, quantile(weights[members], means, variances, UPPER))
+        means, variances = self._means[:, which], self._covariances[:, which, which]
+        lower, upper = hull_of_intervals(self.weights, means, variances, self._kinds, self._shares)
         return min(max(lower, low), high), max(min(upper, high), low)
 
     def push(self, v_x: float, v_y: float, duration: float) -> None:

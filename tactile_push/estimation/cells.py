@@ -111,14 +111,13 @@ def slope(t: float, n: float) -> float:
 
 @equation
 def left_slopes(
-    d: Interval, l: Interval, cell: Array, friction: Array, cos: float, sin: float
+    d: Interval, l: Interval, c_squared: Interval, friction: Array, cos: float, sin: float
 ) -> tuple[float, float]:
     """Bound the slope of the motion cone's left edge for all frictions in a cell: most, then least.
 
     `friction` holds cosine and sine of the cell's least and of its greatest alpha, `cos` and `sin`
     are those of how far the edge may be from the ellipsoid's.
     """
-    c_squared = Interval(cell[C_SQUARED_LOW], cell[C_SQUARED_HIGH])
     t, n, _, _ = left_edge(d, l, c_squared, friction[0], friction[1])
     nearest = slope(cos * t + sin * n, cos * n - sin * t)
     _, _, t, n = left_edge(d, l, c_squared, friction[2], friction[3])
@@ -140,12 +139,14 @@ def rate_bounds(
     v_n = cos_theta * push.v_y - sin_theta * push.v_x
     rolled = scaled(bounds.r, theta - bounds.theta_0)
     d = Interval(cell[ROLLED_LOW] - rolled.high, cell[ROLLED_HIGH] - rolled.low)
+    c_squared = Interval(cell[C_SQUARED_LOW], cell[C_SQUARED_HIGH])
     if v_n > 0.0:
-        nearest, farthest = left_slopes(d, l, cell, friction, cos, sin)
+        nearest, farthest = left_slopes(d, l, c_squared, friction, cos, sin)
         slip_low = min(0.0, v_t - v_n * nearest)
         slip_high = min(0.0, v_t - v_n * farthest)
         # The right edge is the left one's mirror image.
-        nearest, farthest = left_slopes(Interval(-d.high, -d.low), l, cell, friction, cos, sin)
+        mirrored = Interval(-d.high, -d.low)
+        nearest, farthest = left_slopes(mirrored, l, c_squared, friction, cos, sin)
         slip_low += max(0.0, v_t + v_n * farthest)
         slip_high += max(0.0, v_t + v_n * nearest)
     else:  # pulled along, or left standing
@@ -155,8 +156,8 @@ def rate_bounds(
     if v_n <= 0.0:
         turn_low, turn_high = min(turn_low, 0.0), max(turn_high, 0.0)
     dd, share = squared(d), bounds.turn
-    least = cell[C_SQUARED_LOW] + dd.low + l.low * l.low
-    most = cell[C_SQUARED_HIGH] + dd.high + l.high * l.high
+    least = c_squared.low + dd.low + l.low * l.low
+    most = c_squared.high + dd.high + l.high * l.high
     omega_low = turn_low * ((1.0 + share) / least if turn_low < 0.0 else (1.0 - share) / most)
     omega_high = turn_high * ((1.0 + share) / least if turn_high > 0.0 else (1.0 - share) / most)
     return Interval(omega_low, omega_high), Interval(slip_low, slip_high)
@@ -200,6 +201,24 @@ def push_cells(cells: Array, push: Push, bounds: Bounds) -> int:
             cells[left] = middle
             left += 1
     return left
+
+
+@compiled
+def hull(cells: Array, bounds: Bounds) -> tuple[Interval, Interval, Interval]:
+    """Bound d [m], c^2 [m^2] and alpha [rad] in all cells together."""
+    d_low, c_squared_low, alpha_low = math.inf, math.inf, math.inf
+    d_high, c_squared_high, alpha_high = -math.inf, -math.inf, -math.inf
+    for h in range(len(cells)):
+        cell = cells[h]
+        turned = Interval(cell[THETA_LOW] - bounds.theta_0, cell[THETA_HIGH] - bounds.theta_0)
+        rolled = times(bounds.r, turned)
+        d_low = min(d_low, cell[ROLLED_LOW] - rolled.high)
+        d_high = max(d_high, cell[ROLLED_HIGH] - rolled.low)
+        c_squared_low = min(c_squared_low, cell[C_SQUARED_LOW])
+        c_squared_high = max(c_squared_high, cell[C_SQUARED_HIGH])
+        alpha_low, alpha_high = min(alpha_low, cell[ALPHA_LOW]), max(alpha_high, cell[ALPHA_HIGH])
+    d = Interval(max(d_low, bounds.d.low), min(d_high, bounds.d.high))
+    return d, Interval(c_squared_low, c_squared_high), Interval(alpha_low, alpha_high)
 
 
 @compiled

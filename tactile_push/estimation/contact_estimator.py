@@ -15,7 +15,7 @@ from tactile_push.estimation.prior import Prior, friction
 from tactile_push.mechanics.compiled import Array
 from tactile_push.paper import FINGER_RADIUS
 
-OF_POSE = (THETA, D, L, R)
+OF_POSE = np.ix_((THETA, D, L, R), (THETA, D, L, R))  # rows and columns of a covariance
 NOISE_BOUND = 5.0  # largest error of a reading for what is guaranteed, in its deviations
 SLENDER_DRIFT, SLENDER_SKEW = 0.1, 0.15  # of the liberties, by the logarithm of the slenderness
 ANY_THETA = math.pi**2 / 12.0  # variance of a theta of which nothing is known [rad^2]
@@ -251,7 +251,7 @@ class ContactEstimator:
             c,
             mu_c,
             float(mean[THETA]),
-            covariance[np.ix_(OF_POSE, OF_POSE)],
+            covariance[OF_POSE],
             float(mean[L]),
             float(mean[R]),
             1.0 if self._watch is None else self._watch.surprise,

@@ -8,18 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from tactile_push.estimation.cells import (
-    ALPHA_HIGH,
-    ALPHA_LOW,
-    C_SQUARED_HIGH,
-    C_SQUARED_LOW,
     FACES,
-    ROLLED_HIGH,
-    ROLLED_LOW,
-    THETA_HIGH,
-    THETA_LOW,
     Bounds,
     Interval,
     cut_cells,
+    hull,
     push_cells,
     split_cells,
 )
@@ -59,9 +52,11 @@ class GuaranteedSet:
         theta: float,  # the first reading [rad]
     ) -> None:
         self._prior = prior
-        self._bounds = bounds
-        self._radius = radius
-        self._theta = theta
+        self._noise = bounds.noise
+        slack = 3.0 * prior.l_sigma
+        l = Interval(prior.l - slack, prior.l + slack)
+        d, r = Interval(*prior.d), Interval(*radius)
+        self._bounds = Bounds(d, l, r, theta, bounds.turn, bounds.cone)
         self._cells = np.zeros((CELLS, FACES))
         low, high = theta - bounds.noise, theta + bounds.noise
         rolled = radius[1] * bounds.noise
@@ -82,41 +77,25 @@ class GuaranteedSet:
         prior = self._prior
         if self.empty:
             return np.array([prior.d, prior.c, prior.mu_c])
-        cells = self._cells[: self._count]
-        # How far it has rolled is greatest or least at the ends of both radius and turn.
-        turns = cells[:, [THETA_LOW, THETA_HIGH]] - self._theta
-        rolled = np.concatenate([radius * turns for radius in self._radius], axis=1)
-        low = (cells[:, ROLLED_LOW] - rolled.max(axis=1)).min()
-        high = (cells[:, ROLLED_HIGH] - rolled.min(axis=1)).max()
-        return np.array(
-            [
-                [max(low, prior.d[0]), min(high, prior.d[1])],
-                np.sqrt([cells[:, C_SQUARED_LOW].min(), cells[:, C_SQUARED_HIGH].max()]),
-                [friction(cells[:, ALPHA_LOW].min()), friction(cells[:, ALPHA_HIGH].max())],
-            ]
-        )
+        d, c_squared, alpha = hull(self._cells[: self._count], self._bounds)
+        c = [math.sqrt(square) for square in c_squared]
+        return np.array([d, c, [friction(angle) for angle in alpha]])
 
     def push(self, v_x: float, v_y: float, duration: float) -> None:
         """Move the cells on by a push [m/s, m/s, s]."""
-        prior, model = self._prior, self._bounds
-        slack = 3.0 * prior.l_sigma
-        l = Interval(prior.l - slack, prior.l + slack)
-        d, r = Interval(*prior.d), Interval(*self._radius)
-        bounds = Bounds(d, l, r, self._theta, model.turn, model.cone)
         parts = max(1, math.ceil(math.hypot(v_x, v_y) * duration / LONGEST_PART))
         push = Push(v_x, v_y, duration / parts)
         for _ in range(parts):
-            self._count = push_cells(self._cells[: self._count], push, bounds)
+            self._count = push_cells(self._cells[: self._count], push, self._bounds)
 
     def read(self, theta: float) -> None:
         """Cut off what a reading of theta [rad] excludes."""
-        noise = self._bounds.noise
-        self._count = cut_cells(self._cells[: self._count], theta - noise, theta + noise)
+        low, high = theta - self._noise, theta + self._noise
+        self._count = cut_cells(self._cells[: self._count], low, high)
         self._split()
 
     def _split(self) -> None:
         """Halve the cells while there is room."""
         while 0 < 2 * self._count <= CELLS:
-            self._count = split_cells(
-                self._cells, self._count, self._prior.l, sum(self._radius) / 2.0, self._theta
-            )
+            r, theta_0 = sum(self._bounds.r) / 2.0, self._bounds.theta_0
+            self._count = split_cells(self._cells, self._count, self._prior.l, r, theta_0)

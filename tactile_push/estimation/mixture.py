@@ -1,8 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Quantiles of a weighted sum of Gaussians."""
+"""Quantiles of weighted sums of Gaussians."""
 
 import math
+
+import numpy as np
+import numpy.typing as npt
 
 from tactile_push.mechanics.compiled import Array, compiled
 
@@ -10,6 +13,8 @@ REACH = 4.5  # standard deviations beyond which a Gaussian is taken to have noth
 NEGLIGIBLE = 1e-6  # weight
 EXACT = 1e-4  # error of the share
 FINE = 1e-6  # last bracket, of the first one: where the mixture has a step
+KIND_EXCLUDED = 0.05  # evidence of a kind of friction, of the best one's, that excludes it
+LOWER, UPPER = 0.025, 0.975  # shares below the ends of an interval
 
 
 @compiled
@@ -53,3 +58,27 @@ def quantile(weights: Array, means: Array, variances: Array, share: float) -> fl
             step = value - excess * total * math.sqrt(math.tau) / slope
         value = step if low < step < high else (low + high) / 2.0
     return (low + high) / 2.0
+
+
+@compiled
+def hull_of_intervals(
+    weights: Array, means: Array, variances: Array, kinds: npt.NDArray[np.int64], shares: Array
+) -> tuple[float, float]:
+    """Find the hull of the 95 % intervals of several mixtures, one a kind of friction.
+
+    `kinds` says to which one a Gaussian belongs, in rising order. Kinds whose evidence, the weight
+    of all its Gaussians over its share of the prior, is far below the best one's are left out.
+    """
+    ends, evidence = np.zeros(len(shares) + 1, np.int64), np.zeros(len(shares))
+    for h in range(len(kinds)):
+        ends[kinds[h] + 1 :] = h + 1
+        evidence[kinds[h]] += weights[h]
+    evidence /= shares
+    lower, upper = math.inf, -math.inf
+    for kind in range(len(shares)):
+        if evidence[kind] > KIND_EXCLUDED * evidence.max():
+            first, last = ends[kind], ends[kind + 1]
+            mixture = weights[first:last], means[first:last], variances[first:last]
+            lower = min(lower, quantile(*mixture, LOWER))
+            upper = max(upper, quantile(*mixture, UPPER))
+    return lower, upper

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 import math
+from itertools import product
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from tactile_push.estimation.cells import (
     Bounds,
     Interval,
     cut_cells,
+    hull,
     push_cells,
     split_cells,
     squared,
@@ -133,3 +135,22 @@ def test_a_product_of_intervals_has_the_products_of_their_ends(a, b, product):
 )
 def test_a_square_is_never_negative(interval, square):
     assert squared(Interval(*interval)) == square
+
+
+def test_the_hull_reaches_as_far_as_the_corners_of_the_cells():
+    rng = np.random.default_rng(7)
+    cells = np.sort(rng.uniform(0.0, 0.02, (5, FACES // 2, 2))).reshape(5, FACES)
+    radii, theta_0 = Interval(0.012, 0.015), 0.01  # the edge turns either way
+    bounds = Bounds(Interval(-1.0, 0.018), Interval(HALF, HALF), radii, theta_0, 0.3, 0.2)
+
+    d, c_squared, alpha = hull(cells, bounds)
+
+    corners = [
+        rolled - r * (theta - theta_0)
+        for cell in cells
+        for theta, rolled, r in product(cell[0:2], cell[2:4], radii)
+    ]
+    assert max(corners) > 0.018  # beyond the end of the edge
+    assert d == pytest.approx((min(corners), 0.018))
+    assert c_squared == (cells[:, 4].min(), cells[:, 5].max())
+    assert alpha == (cells[:, 6].min(), cells[:, 7].max())

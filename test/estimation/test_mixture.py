@@ -6,7 +6,7 @@ from statistics import NormalDist
 import numpy as np
 import pytest
 
-from tactile_push.estimation.mixture import EXACT, quantile
+from tactile_push.estimation.mixture import EXACT, hull_of_intervals, quantile
 
 SHARES = [0.025, 0.1, 0.5, 0.9, 0.975]
 
@@ -55,3 +55,14 @@ def test_quantiles_grow_with_the_share_and_shift_with_the_means():
     shifted = [quantile(weights, means + 10.0, variances, share) for share in SHARES]
     assert found == sorted(found)
     assert shifted == pytest.approx(np.array(found) + 10.0, abs=1e-6)
+
+
+@pytest.mark.parametrize(('evidence', 'least'), [(0.051, -5.0), (0.049, 5.0)])
+def test_the_hull_of_intervals_leaves_out_a_kind_of_little_evidence(evidence, least):
+    means, kinds = np.array([5.0, -5.0]), np.array([0, 2])  # none of the kind 1
+    shares = np.array([0.5, 0.25, 0.25])
+    weights = np.array([0.5, 0.25 * evidence])
+
+    found = hull_of_intervals(weights, means, np.ones(2), kinds, shares)
+
+    assert found == pytest.approx((least - 1.959964, 5.0 + 1.959964), abs=2e-3)
