@@ -8,7 +8,6 @@ import os
 import random
 import signal
 import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import Mapping
@@ -16,6 +15,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from tactile_push.parameters import config_file
+from tactile_push.testing.fork_server import ForkedNode, fork_node
 
 DOMAINS = range(1, 101)  # ids that need no port among the ephemeral ones
 STOP_TIMEOUT = 5.0  # for all processes to end after SIGINT before the rest is killed [s]
@@ -36,7 +36,7 @@ class NodeProcesses:
     ----------
     environment : dict of str to str
         Environment of every process.
-    running : dict of str to subprocess.Popen
+    running : dict of str to subprocess.Popen or ForkedNode
         The processes by name.
     """
 
@@ -49,7 +49,7 @@ class NodeProcesses:
             **loopback(),
             'ROS_LOG_DIR': str(folder / 'ros_log'),
         }
-        self.running: dict[str, subprocess.Popen[bytes]] = {}
+        self.running: dict[str, ForkedNode | subprocess.Popen[bytes]] = {}
 
     def __enter__(self) -> 'NodeProcesses':
         return self
@@ -65,7 +65,7 @@ class NodeProcesses:
         config: Path | None = None,
         name: str | None = None,
         arguments: tuple[str, ...] = (),
-    ) -> subprocess.Popen[bytes]:
+    ) -> ForkedNode:
         """Start a node.
 
         Parameters
@@ -83,15 +83,19 @@ class NodeProcesses:
 
         Returns
         -------
-        subprocess.Popen
-            The process.
+        ForkedNode
+            The process, with what `subprocess.Popen` has to wait for it and to send it signals.
         """
-        command = [sys.executable, '-m', f'tactile_push.nodes.{node}', '--ros-args', *arguments]
+        name = name or node
+        options = ['--ros-args', *arguments]
         if config is not None:
-            command += ['--params-file', str(config)]
+            options += ['--params-file', str(config)]
         for key, value in (parameters or {}).items():
-            command += ['-p', f'{key}:={yaml_value(value)}']
-        return self.run(name or node, command)
+            options += ['-p', f'{key}:={yaml_value(value)}']
+        with self.log(name).open('ab') as log:
+            process = fork_node(node, options, self.environment, log)
+        self.running[name] = process
+        return process
 
     def run(self, name: str, command: list[str]) -> subprocess.Popen[bytes]:
         """Start any program in the nodes' domain.
@@ -107,7 +111,7 @@ class NodeProcesses:
             The process, in a session of its own: Ctrl-C at the terminal is for the parent.
         """
         with self.log(name).open('ab') as log:
-            self.running[name] = subprocess.Popen(
+            process = subprocess.Popen(
                 command,
                 env=self.environment,
                 stdin=subprocess.DEVNULL,
@@ -115,7 +119,8 @@ class NodeProcesses:
                 stderr=subprocess.STDOUT,
                 start_new_session=True,
             )
-        return self.running[name]
+        self.running[name] = process
+        return process
 
     def log(self, name: str) -> Path:
         """Return the file that holds what a process has said.

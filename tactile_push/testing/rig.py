@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The simulated plant with the nodes around it, and what they say."""
 
-import subprocess
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -16,6 +15,7 @@ from sensor_msgs.msg import JointState
 from tactile_push.control import STATES, STOP_REASONS
 from tactile_push.interface import COMMAND, CONTACT, CONTROLLER_STATE, TACTILE, TRUE_STATE
 from tactile_push.parameters.config_file import config_file
+from tactile_push.testing.fork_server import ForkedNode
 from tactile_push.testing.observer import Heard, Observer, field
 from tactile_push.testing.processes import NodeProcesses
 
@@ -121,7 +121,7 @@ class Rig:
 
     def start_node(
         self, node: str, parameters: Mapping[str, Any], arguments: tuple[str, ...] = ()
-    ) -> subprocess.Popen[bytes]:
+    ) -> ForkedNode:
         """Start one of the package's nodes, at the rig's device and with its configuration.
 
         Parameters
@@ -133,7 +133,7 @@ class Rig:
 
         Returns
         -------
-        subprocess.Popen
+        ForkedNode
             The process.
         """
         if node in ('sim_plant', 'sensor_driver'):

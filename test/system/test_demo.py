@@ -86,19 +86,22 @@ def test_interrupted_demo_ends_in_silence_and_leaves_no_process(
     while not (tmp_path / 'block').exists():  # made by the recording process
         assert demo.poll() is None
         time.sleep(0.01)
-    children = _descendants(demo.pid)
-    assert len(children) >= 6
+    descendants = _descendants(demo.pid)
+    assert len(descendants) >= 6
     demo.send_signal(stop_signal)
     _, said = demo.communicate(timeout=60)
     assert demo.returncode == status
     assert 'Traceback' not in said
-    assert not any(Path(f'/proc/{child}').exists() for child in children)
+    assert not any(Path(f'/proc/{pid}').exists() for pid in descendants)
 
 
 def _descendants(pid: int) -> list[int]:
     listing = subprocess.run(['ps', '-eo', 'pid,ppid'], capture_output=True, text=True, check=True)
     pairs = [tuple(map(int, line.split())) for line in listing.stdout.splitlines()[1:]]
-    return [child for child, parent in pairs if parent == pid]
+    family = [pid]
+    for ancestor in family:  # which grows
+        family += [child for child, parent in pairs if parent == ancestor]
+    return family[1:]
 
 
 def test_output_that_cannot_be_written_is_bad_input(tmp_path: Path):
