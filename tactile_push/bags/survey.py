@@ -16,10 +16,12 @@ from mcap.stream_reader import StreamReader
 
 from tactile_push.bags.headers import HeaderStamps
 from tactile_push.bags.mcap_records import LARGEST_CHUNK
-from tactile_push.bags.reader import BagError, BagReader, Message
+from tactile_push.bags.reader import BagError, BagReader, Message, Topic
 
 _PROGRESS_EVERY = 1000  # messages
 _SAMPLE = 16384  # intervals of a topic that are kept for their median
+# Messages make a rate if they would last so long at it: a second, or the share of a short bag.
+_LASTS, _SHARE = 10**9, 0.01  # [ns]
 
 
 @dataclass(frozen=True)
@@ -38,7 +40,7 @@ class TopicInfo:
     name: str
     type_name: str
     messages: int
-    rate: float | None  # by the median time between two messages [Hz]
+    rate: float | None  # by the median time between two messages [Hz]; None if they come in bursts
     largest_gap: float | None  # longest time between two messages [s]
     gap_at: float | None  # when that gap began, from the start of the bag [s]
     out_of_order: int | None  # messages stamped before the one that they follow
@@ -90,7 +92,7 @@ def survey(
         [FileInfo(file, file.stat().st_size, _compression(file)) for file in bag.files],
         messages,
         [
-            surveyed[name].topic_info(name, bag.topics[name].type_name, bag.start_time)
+            surveyed[name].topic_info(bag.topics[name], bag.start_time, bag.end_time)
             for name in sorted(bag.topics)
         ],
         remarks,
@@ -128,15 +130,17 @@ class _TopicSurvey:
         self._last = time
         self._messages += 1
 
-    def topic_info(self, name: str, type_name: str, start: int) -> TopicInfo:
-        """Return what is known so far."""
+    def topic_info(self, topic: Topic, start: int, end: int) -> TopicInfo:
+        """Return what is known so far of a topic of a bag from `start` to `end` [ns]."""
         apart = float(np.median(self._intervals)) if self._intervals else 0.0
+        lasts = min(_LASTS, _SHARE * (end - start))
+        is_rate = apart > 0.0 and apart * (self._messages - 1) >= lasts
         several = self._messages > 1
         return TopicInfo(
-            name,
-            type_name,
+            topic.name,
+            topic.type_name,
             self._messages,
-            rate=1e9 / apart if apart > 0.0 else None,
+            rate=1e9 / apart if is_rate else None,
             largest_gap=self._gap / 1e9 if several else None,
             gap_at=(self._gap_at - start) / 1e9 if several else None,
             out_of_order=None if self._last_stamp is None else self._out_of_order,

@@ -63,6 +63,37 @@ def test_median_of_very_many_intervals(tmp_path):
     assert clock.messages == 40_000
 
 
+SECOND = 10**9  # [ns]
+
+
+@pytest.mark.parametrize(
+    ('times', 'rate'),
+    [
+        # Nodes declare their parameters within microseconds; they start at once, or one by one.
+        ([1000 * k for k in range(30)], None),
+        ([second * SECOND + 2329 * k for second in (0, 1, 3) for k in range(10)], None),
+        ([5 * SECOND, 5 * SECOND + 1], None),
+        # Two changes of parameters 5 s apart say how often that happened.
+        ([1 * SECOND, 6 * SECOND], 0.2),
+        # A fast topic that fell silent, for most of the bag or even of an hour.
+        ([k * SECOND // 50 for k in range(500)], 50.0),
+        ([k * SECOND // 50 for k in range(500)] + [3600 * SECOND], 50.0),
+        # 1 kHz for a fifth of a second.
+        ([k * SECOND // 1000 for k in range(201)], 1000.0),
+    ],
+)
+def test_rate_is_what_messages_keep_up_and_a_burst_does_not(write, times, rate):
+    (_, topic) = info_of(write({'/a': clocks(0, 12 * SECOND), '/b': clocks(*times)})).topics
+    assert topic.rate == (None if rate is None else pytest.approx(rate))
+    assert topic.messages == len(times)
+
+
+def test_rate_in_a_bag_that_is_shorter_than_a_second(write):
+    burst, steady = [0, 700, 1400, 2100], [k * 20_000_000 for k in range(5)]
+    quick, tactile = info_of(write({'/a': clocks(*burst), '/b': clocks(*steady)})).topics
+    assert (quick.rate, tactile.rate) == (None, pytest.approx(50.0))
+
+
 def test_empty_bag(tmp_path):
     info = info_of(write_bag(tmp_path / 'bag', {'/clock': (CLOCK, [])}))
     assert (info.messages, info.duration, info.start_time) == (0, 0.0, 0)
