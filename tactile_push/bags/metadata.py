@@ -18,7 +18,7 @@ import yaml
 _NEVER = 2**63 - 1
 
 
-class _PlainDumper(yaml.SafeDumper):
+class _PlainDumper(getattr(yaml, 'CSafeDumper', yaml.SafeDumper)):  # type: ignore[misc]
     """Write equal parts out in full, where YAML would refer from one to the other."""
 
     def ignore_aliases(self, data: Any) -> bool:
