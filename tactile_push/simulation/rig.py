@@ -4,11 +4,13 @@
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 from tactile_push import paper
 from tactile_push.mechanics import (
     FREE,
     MODES,
+    Body,
     Finger,
     Outline,
     Pose,
@@ -63,7 +65,17 @@ class RigConfig:
             raise ValueError(
                 f'theta: expected an edge that faces the belt, |theta| < pi/2 rad, got {self.theta}'
             )
-        self.slider.outline.sigma(self.radius, d=self.d)
+        _ = self.sigma  # which refuses a start that is no contact
+
+    @cached_property
+    def body(self) -> Body:
+        """The object as the compiled functions take it."""
+        return self.slider.body(self.radius)
+
+    @cached_property
+    def sigma(self) -> float:
+        """Where the contact starts along the path of the disk's centre around the object [m]."""
+        return self.slider.outline.sigma(self.radius, d=self.d)
 
 
 def paper_block(
@@ -154,7 +166,7 @@ class Rig:
     def __init__(self, config: RigConfig, faults: Faults = NO_FAULTS) -> None:
         self.config = config
         self.faults = faults
-        self._body = config.slider.body(config.radius)
+        self._body = config.body
         # The knuckle points across the belt, the pole along it.
         self._home = config.finger.forward(math.pi - config.finger.mount_angle, -math.pi / 2.0)
         self._commands = DelayLine()
@@ -164,7 +176,7 @@ class Rig:
         self.finger_x = 0.0
         self.finger_y = 0.0
         self.touching = True
-        self.sigma = config.slider.outline.sigma(config.radius, d=config.d)
+        self.sigma = config.sigma
         self.mode = FREE
         self.phi = math.pi / 2.0
         self.at_workspace_limit = False

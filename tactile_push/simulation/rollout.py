@@ -258,14 +258,13 @@ def rollout(
         law = PushLaw(0.0, 0.0, config.theta)
     check_towards(law.phi if pushes is None else pushes[0], config.theta)
     history = np.empty((steps + 1, QUANTITIES))
-    sigma = config.slider.outline.sigma(config.radius, d=config.d)
     cos_alpha, sin_alpha = friction_cone(config.mu_c)
     done, _ = run(
-        Start(config.theta, sigma, law.phi),
+        Start(config.theta, config.sigma, law.phi),
         LawNumbers(law.kp, law.kd, law.theta_desired, law.phi_min, law.phi_max),
         pushes,
         Periods(steps, period, config.belt_speed),
-        config.slider.body(config.radius),
+        config.body,
         Finger(cos_alpha, sin_alpha, config.radius),
         None if servo is None else ServoNumbers(*astuple(servo)),
         math.inf,
