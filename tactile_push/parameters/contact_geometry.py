@@ -9,6 +9,9 @@ from tactile_push import paper
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
 from tactile_push.tactile import JUMP_TOLERANCE, MAX_THETA_RATE, ContactFinder
+from tactile_push.tactile.contact_finder import MAX_OUT_OF_PLANE
+from tactile_push.tactile.planar_finger import USUAL_FINGER
+from tactile_push.tactile.pole_history import JOINT_STATE_TIMEOUT
 
 
 @dataclass(frozen=True)
@@ -21,14 +24,14 @@ class ContactGeometryParameters(NodeParameters):
     use_joint_states: bool = parameter(True, '',
         'take the direction of the finger tip from joint_states; otherwise it is mount_angle',
         read_only=True)
-    mount_angle: float = parameter(shared.MOUNT_ANGLE, 'rad',
+    mount_angle: float = parameter(USUAL_FINGER.mount_angle, 'rad',
         'angle of the finger tip in finger_base at joint angles zero', -6.3, 6.3)
     joint_names: list[str] = parameter(shared.JOINT_NAMES, '',
         'the moving joints in joint_states whose angles add up to the direction of the tip',
         read_only=True)
-    joint_state_timeout: float = parameter(0.1, 's',
+    joint_state_timeout: float = parameter(JOINT_STATE_TIMEOUT, 's',
         'longest time between a reading and the joint state used for it', 0.001, 10.0)
-    max_out_of_plane: float = parameter(0.2, '',
+    max_out_of_plane: float = parameter(MAX_OUT_OF_PLANE, '',
         'largest size of cos(elevation) sin(azimuth), by which the direction of a contact sticks '
         'out of the plane of motion', 0.001, 1.0)
     detectable_range: float = parameter(math.pi / 2.0, 'rad',

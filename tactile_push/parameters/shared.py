@@ -2,26 +2,23 @@
 # SPDX-License-Identifier: Apache-2.0
 """Fields that several nodes declare under the same name and with the same words."""
 
-import math
-
 from tactile_push import paper
+from tactile_push.interface import JOINT_STATES, TOPICS
 from tactile_push.parameters.parameter import parameter
+from tactile_push.tactile.planar_finger import USUAL_FINGER as FINGER
 
 DEVICE = 'socket://127.0.0.1:54320'  # where `sim_plant` and `sensor_driver` meet
-JOINT_NAMES = ['proximal_joint', 'distal_joint']
-MOUNT_ANGLE = math.pi / 2.0  # straight ahead [rad]
+JOINT_NAMES = list(TOPICS[JOINT_STATES].field_names)
 
-finger_radius = parameter(
-    paper.FINGER_RADIUS, 'm', "effective radius of the finger's disk", 1e-4, 1.0, read_only=True
-)
+# fmt: off
+finger_radius = parameter(paper.FINGER_RADIUS, 'm',
+    "effective radius of the finger's disk", 1e-4, 1.0, read_only=True)
 belt_speed = parameter(paper.BELT_SPEED, 'm/s', 'speed of the belt', 1e-5, 1.0, read_only=True)
-proximal_length = parameter(
-    0.06, 'm', 'distance between the moving joints of the finger', 1e-3, 1.0, read_only=True
-)
-distal_length = parameter(
-    0.08, 'm', 'distance from the last joint to the centre of the disk', 1e-3, 1.0, read_only=True
-)
-mount_angle = parameter(
-    MOUNT_ANGLE, 'rad', 'angle of the finger at joint angles zero', -6.3, 6.3, read_only=True
-)
+proximal_length = parameter(FINGER.proximal_length, 'm',
+    'distance between the moving joints of the finger', 1e-3, 1.0, read_only=True)
+distal_length = parameter(FINGER.distal_length, 'm',
+    'distance from the last joint to the centre of the disk', 1e-3, 1.0, read_only=True)
+mount_angle = parameter(FINGER.mount_angle, 'rad',
+    'angle of the finger at joint angles zero', -6.3, 6.3, read_only=True)
 autostart = parameter(True, '', 'configure and activate without a manager', read_only=True)
+# fmt: on

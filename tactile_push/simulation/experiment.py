@@ -15,8 +15,8 @@ from tactile_push.simulation.rig import Rig, RigConfig
 from tactile_push.simulation.rollout import MODE, QUANTITIES, Rollout, check_time
 from tactile_push.simulation.sensor import Readout
 from tactile_push.tactile import ContactFinder
+from tactile_push.tactile.pole_history import JOINT_STATE_TIMEOUT
 
-JOINT_STATE_TIMEOUT = 0.1  # the default of the node contact_geometry [s]
 JOINTS = TOPICS[JOINT_STATES].field_names
 ANGLES = ('azimuth', 'elevation')
 

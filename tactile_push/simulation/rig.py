@@ -33,6 +33,7 @@ from tactile_push.tactile import (
     Reading,
     reading_of_contact,
 )
+from tactile_push.tactile.planar_finger import USUAL_FINGER
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ class RigConfig:
     d: float | None  #: contact along the edge at the start [m]; None for the smallest
     belt_speed: float = paper.BELT_SPEED  #: speed of the belt, v_y [m/s]
     radius: float = paper.FINGER_RADIUS  #: effective radius of the finger's disk [m]
-    finger: PlanarFinger = PlanarFinger(0.06, 0.08, math.pi / 2.0)  #: its links
+    finger: PlanarFinger = USUAL_FINGER  #: its links
 
     def __post_init__(self) -> None:
         for name in ('belt_speed', 'radius'):

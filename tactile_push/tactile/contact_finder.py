@@ -11,6 +11,7 @@ from tactile_push.tactile.planar_finger import pole_angle
 from tactile_push.tactile.pole_history import BELIEVED, PoleHistory
 from tactile_push.tactile.reading import Reading
 
+MAX_OUT_OF_PLANE = 0.2  # a face or a finger that leans by 11.5 degrees; picked
 REFUSALS = (  # why a reading is refused; '' if it is not
     '',
     'not newer',
@@ -75,7 +76,7 @@ class ContactFinder:
     def __init__(
         self,
         radius: float,
-        max_out_of_plane: float = 0.2,
+        max_out_of_plane: float = MAX_OUT_OF_PLANE,
         detectable_range: float = math.pi / 2.0,
         max_theta_rate: float = MAX_THETA_RATE,
         jump_tolerance: float = JUMP_TOLERANCE,

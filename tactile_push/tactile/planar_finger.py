@@ -99,6 +99,10 @@ class PlanarFinger:
         return math.remainder(proximal - self.mount_angle, 2.0 * math.pi), distal
 
 
+# Of rig and nodes unless somebody gives another, straight ahead. The lengths are picked.
+USUAL_FINGER = PlanarFinger(0.06, 0.08, math.pi / 2.0)
+
+
 def pole_angle(mount_angle: float, joint_angles: Iterable[float]) -> float:
     """Return psi, the angle of the finger tip's pole in `finger_base` [rad]."""
     return mount_angle + sum(joint_angles)

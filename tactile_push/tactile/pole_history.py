@@ -7,7 +7,8 @@ from bisect import bisect_left, bisect_right
 
 from tactile_push.tactile.hemisphere import ReadingRejectedError, normalized_angle
 
-BELIEVED = 3  # so many agreeing values in a row are no accident
+JOINT_STATE_TIMEOUT = 0.1  # between a reading and its joint state [s]: a control period
+BELIEVED = 3  # so many agreeing values in a row are no accident; two may come twice or late
 
 
 class PoleHistory:
