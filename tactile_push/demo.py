@@ -32,11 +32,11 @@ from tactile_push.report.columns import Column, read_tables, topics_of
 from tactile_push.report.merit import PushFigures, known_step, push_figures
 from tactile_push.testing.processes import NodeProcesses
 
-STEPS = 450
-REAL_TIME_FACTOR = 20.0
+STEPS = 450  # the paper's figures 9 and 10 settle by step 173 and translate from step 400 on
+REAL_TIME_FACTOR = 20.0  # picked; nodes that cannot keep up make the run slower, not different
 SENSOR_RATE = 20.0  # two readings a control period [Hz]
-START_TIMEOUT = 180.0  # longest time to the first step: at their first start the nodes compile [s]
-STALL_TIMEOUT = 30.0  # longest time between two steps [s]
+START_TIMEOUT = 180.0  # longest time to the first step [s]: at their first start the nodes compile
+STALL_TIMEOUT = 30.0  # longest time between two steps [s]; one takes milliseconds
 RIGS = {paper.object: paper for paper in PAPER}  # also names of the parameter files
 TITLES = {BLOCK: r'block, $\theta_d$ = −10°', DISK: r'disk, $\theta_d$ = 0°'}
 DISTANCES = {BLOCK: BLOCK_L, DISK: DISK_RADIUS}  # from edge or tangent to the centre of mass [m]

@@ -11,7 +11,7 @@ from pathlib import Path
 from queue import Queue
 
 # Pieces that may wait for the disk; with more, whoever fills a file waits too. A piece is at most a
-# chunk of a bag.
+# chunk of a bag, so 64 MiB wait; picked.
 _MOST_WAITING = 64
 
 

@@ -26,7 +26,7 @@ _ENDS = ((Opcode.DATA_END, 4), (Opcode.FOOTER, 20))
 # Opcodes that MCAP has given to records; those from 128 on are left to whoever writes the file.
 _KNOWN = range(Opcode.HEADER, Opcode.DATA_END + 1)
 
-# How many bytes of records without a chunk are read at once.
+# How many bytes of records without a chunk are read at once; as many as a usual chunk has.
 _WINDOW = 1 << 20
 
 

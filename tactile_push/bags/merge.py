@@ -11,10 +11,11 @@ from operator import attrgetter
 
 from tactile_push.bags.mcap_file import Message
 
-# Memory for overlapping batches; beyond it, some are freed and read again later [bytes].
+# Memory for overlapping batches, 32 chunks of a usual size; picked. Beyond it, some are freed and
+# read again later [bytes].
 _BUDGET = 1 << 25
 
-# Rough memory of a message besides its data [bytes].
+# Memory of a message besides its data, roughly [bytes].
 _OVERHEAD = 200
 
 _BY_LOG_TIME = attrgetter('log_time')

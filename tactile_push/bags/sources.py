@@ -8,7 +8,7 @@ from typing import IO, Protocol
 
 import zstandard
 
-# How much is decompressed at once on the way to a place further on [bytes].
+# How much is decompressed at once on the way to a place further on [bytes]; picked.
 _STEP = 1 << 20
 
 # zstd's own bound on what a frame may demand for its history [bytes].

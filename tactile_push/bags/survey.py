@@ -19,7 +19,7 @@ from tactile_push.bags.mcap_records import LARGEST_CHUNK
 from tactile_push.bags.reader import BagError, BagReader, Message, Topic
 
 _PROGRESS_EVERY = 1000  # messages
-_SAMPLE = 16384  # intervals of a topic that are kept for their median
+_SAMPLE = 16384  # intervals of a topic that are kept for their median; 128 KiB a topic
 # Messages make a rate if they would last so long at it: a second, or the share of a short bag.
 _LASTS, _SHARE = 10**9, 0.01  # [ns]
 

@@ -30,7 +30,7 @@ COMPRESSIONS = {
 }
 
 IS_THERE = 'expected a new folder, got a path that exists'
-# Size at which a chunk is closed, before compression [B].
+# Size at which a chunk is closed, before compression [B]; as in mcap itself.
 _CHUNK_BYTES = 1 << 20
 
 

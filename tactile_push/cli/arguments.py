@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NoReturn, TypeAlias
 
-MOST_STEPS = 10_000_000
+MOST_STEPS = 10_000_000  # their history takes half a gigabyte; more would be a slip
 BAG: dict[str, Any] = {
     'type': Path,
     'metavar': 'BAG',

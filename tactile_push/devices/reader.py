@@ -12,8 +12,8 @@ from tactile_push.devices.device import Device
 from tactile_push.devices.stream import SentenceStream
 from tactile_push.tactile.reading import Reading
 
-SHORTEST_RETRY, LONGEST_RETRY = 0.1, 2.0  # [s]
-RELEASE_TIME = 0.2  # in which a device is let go of, if pyserial does not block [s]
+SHORTEST_RETRY, LONGEST_RETRY = 0.1, 2.0  # [s]: a plug is soon back; an absent device costs little
+RELEASE_TIME = 0.2  # in which a device is let go of, if pyserial does not block [s]: a few reads
 
 
 class Condition(enum.Enum):

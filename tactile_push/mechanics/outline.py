@@ -31,8 +31,8 @@ from tactile_push.mechanics.contact import (
     contact,
 )
 
-ROUNDING = 1e-9  # of lengths, in units of the outline's size
-ELLIPSE_POINTS = 192
+ROUNDING = 1e-9  # of lengths, of the outline's size: above that of floats, below any detail
+ELLIPSE_POINTS = 192  # the arcs of an ellipse twice as long as wide keep to it within 2e-7 of a
 SMALLEST, LARGEST = 1e-50, 1e50  # sizes whose squares and cubes are still numbers [m]
 
 

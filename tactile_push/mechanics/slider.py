@@ -16,7 +16,7 @@ from tactile_push.mechanics.outline import Outline
 from tactile_push.mechanics.push import move_finger
 from tactile_push.mechanics.support import Support
 
-OVERHANG = 1e-6  # how far outside the outline a support point may be, in units of its length
+OVERHANG = 1e-6  # how far a support point may stick out, by rounding [length of the outline]
 
 
 @dataclass(frozen=True, eq=False)

@@ -26,7 +26,7 @@ from tactile_push.mechanics.quadrature import (
     spaced,
 )
 
-COUNT = 400
+COUNT = 400  # points that stand for a support; a push sums over them, m_max does not need them
 
 
 @dataclass(frozen=True, eq=False)

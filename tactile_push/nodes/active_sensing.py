@@ -24,7 +24,7 @@ from tactile_push.parameters.active_sensing import ActiveSensingParameters, make
 from tactile_push.pipeline import Sensed, Sensing
 from tactile_push.pipeline.stamps import stamp_of
 
-PATIENCE = 1.0  # without a control period for longer the node warns [s]
+PATIENCE = 1.0  # without a control period for longer the node warns [s]: ten of the paper's
 
 
 class ActiveSensingNode(Node):

@@ -22,9 +22,9 @@ from tactile_push.playing.player import Player
 from tactile_push.playing.schedule import Part, part_of, topic_in_bag
 from tactile_push.playing.terminal import Terminal
 
-TERMINAL_PERIOD = 0.05  # between looks at the keyboard [s]
+TERMINAL_PERIOD = 0.05  # between looks at the keyboard [s]; a person does not notice less
 PAUSE_KEYS, STEP_KEYS = (' ',), ('s', '\x1b[C', '\x1bOC')  # the last two are the right arrow
-SWITCH_INTERVAL = 1e-4  # between threads that want to run [s]
+SWITCH_INTERVAL = 1e-4  # between threads that want to run [s]; Python's 5e-3 makes messages late
 
 
 class BagPlayer(Node):

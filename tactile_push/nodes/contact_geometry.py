@@ -25,7 +25,7 @@ from tactile_push.parameters.contact_geometry import (
 from tactile_push.pipeline import Geometry
 from tactile_push.pipeline.stamps import stamp_of
 
-PATIENCE = 0.5  # without a reading, or without one that is of use, before it is an error [s]
+PATIENCE = 0.5  # without a useful reading before it is an error [s]: the finger has stopped by then
 # Counts that are no fault. A finger in the air is none. A message that came twice does no harm; on
 # simulated time, which stands still now and then, that is common.
 NO_FAULT = {

@@ -28,7 +28,7 @@ from tactile_push.recording.recording import Recording
 
 # Without these recorded from the beginning no experiment starts.
 AWAITED = tuple(topic for topic in RECORDED if topic not in (CLOCK, PARAMETER_EVENTS))
-LOOK_PERIOD = 0.05  # [s]
+LOOK_PERIOD = 0.05  # at the recorder and the answers [s]; short beside the start of a node
 
 
 class Experiment(Node):

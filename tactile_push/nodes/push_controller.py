@@ -41,8 +41,8 @@ COMMANDS = (
     QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE),
     QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT),
 )
-STANDSTILL = 1.0  # without a tick for this long after a control period, time stands still [s]
-REMEMBERED = 32  # own commands that may still be on their way back to this node, twice each
+STANDSTILL = 1.0  # without a tick for so long after a period, time stands still [s]; picked
+REMEMBERED = 32  # own commands that may still be on their way back here: 3 s of the paper's rate
 
 
 class PushController(ManagedNode):

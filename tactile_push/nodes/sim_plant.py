@@ -42,10 +42,10 @@ from tactile_push.simulation.pace import Pace
 from tactile_push.tactile import Reading
 
 FRESHEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
-MARKER_RATE = 10.0  # [Hz]
-REPEAT_PERIOD = 0.01  # of time and reading while the time stands still [s]
-LOOK_PERIOD = 1.0  # at who commands [s]
-LONGEST_STEP = 0.1  # what a delayed timer may add to the real-time rig at once [s]
+MARKER_RATE = 10.0  # [Hz]; fluent enough to the eye
+REPEAT_PERIOD = 0.01  # of time and reading while time stands still [s]; late by no more; picked
+LOOK_PERIOD = 1.0  # at who commands [s]; as often as diagnostics report it
+LONGEST_STEP = 0.1  # a late timer moves the real-time rig no further at once [s]: a control period
 
 
 class SimPlant(Node):

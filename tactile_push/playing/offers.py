@@ -8,7 +8,8 @@ from typing import Any
 
 FOREVER = 2**63 - 1  # [ns]
 
-# The graph, and so a bag, does not know how many messages a publisher keeps.
+# The graph, and so a bag, does not know how many messages a publisher keeps. Ours keep 1000. Each
+# late subscriber gets all that is latched, so there it is fewer; picked.
 DEPTH = 1000
 LATCHED_DEPTH = 100
 

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from tactile_push.bags import Message
 from tactile_push.playing.schedule import Event
 
-LATE = 10_000_000  # delay from which an event counts as late [ns]
+LATE = 10_000_000  # delay from which an event counts as late [ns]: a tenth of the paper's period
 
 
 class Playhead:

@@ -36,11 +36,11 @@ from tactile_push.playing.read_ahead import ReadAhead
 from tactile_push.playing.schedule import Event, Part, events
 from tactile_push.recording.recorder import message_class
 
-LOOK_PERIOD = 0.05  # between looks at the graph [s]
-QUIET = 2.0  # for which the graph must not change: nodes are discovered one by one [s]
-PATIENCE = 5.0  # after which the play begins in any case [s]
+LOOK_PERIOD = 0.05  # between looks at the graph [s]; a person does not notice less
+QUIET = 2.0  # for which the graph must not change [s]: nodes are discovered one by one
+PATIENCE = 5.0  # after which the play begins in any case [s]; discovery takes up to 3 s
 ANSWER_TIMEOUT = 1.0  # of the playing thread, which may have to wait for the disk [s]
-LAST_WORDS = 1.0  # for subscribers to acknowledge the last messages [s]
+LAST_WORDS = 1.0  # for subscribers to acknowledge the last messages [s]; picked
 TIME_ENDS = 2**31 * 10**9  # the first time that builtin_interfaces/Time cannot hold [ns]
 
 

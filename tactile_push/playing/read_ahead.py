@@ -8,9 +8,9 @@ from threading import Condition, Thread
 
 from tactile_push.playing.schedule import Event
 
-MOST = 2**23  # size of what is read ahead [B]
-BATCH = 2**16  # size of what is handed over at once [B]
-OVERHEAD = 500  # memory of an event besides its message's data [B]
+MOST = 2**23  # size of what is read ahead [B]: several chunks, so zstd is never waited for
+BATCH = 2**16  # size of what is handed over at once [B]; a lock for each message would cost more
+OVERHEAD = 500  # memory of an event besides its message's data, roughly [B]
 
 
 class ReadAhead(Iterator[Event]):

@@ -16,8 +16,8 @@ from rclpy.task import Future
 
 from tactile_push.interface import NODES
 
-LOOK_PERIOD = 0.2  # between looks for new nodes [s]
-ASK_AGAIN = 5  # looks after which a missing answer is lost
+LOOK_PERIOD = 0.2  # between looks for new nodes [s]; picked: a look asks the graph only
+ASK_AGAIN = 5  # looks, a second, after which a missing answer is lost
 
 
 class ParameterNotes:

@@ -22,7 +22,7 @@ from tactile_push.bags.writer import FLUSH_PERIOD
 from tactile_push.interface import CLOCK
 from tactile_push.recording.simulated_time import SimulatedTime
 
-_TAKE_PERIOD = 0.02  # between looks for messages [s]
+_TAKE_PERIOD = 0.02  # between looks for messages [s]; shorter costs processor time, see `_DEPTH`
 _SEARCH_PERIOD = 0.1  # between looks for new topics, as in rosbag2 [s]
 _WATCH_LOOKS = 10  # looks for new topics between two at the publishers of recorded topics
 

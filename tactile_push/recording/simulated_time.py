@@ -5,7 +5,7 @@
 import math
 from bisect import bisect_right
 
-_TICKS = 1000  # ticks that are remembered
+_TICKS = 1000  # that are remembered: a second of a clock at 1 kHz
 
 
 class SimulatedTime:

@@ -29,9 +29,9 @@ from tactile_push.pipeline import Control, Stamp, by_name
 from tactile_push.pipeline.stamps import seconds_since, stamp_of
 from tactile_push.replay.messages import Replayed
 
-PATIENCE = 10**9  # how much later than a tick the bag may have a contact that the tick used [ns]
+PATIENCE = 10**9  # so much later than a tick the bag may have a contact that the tick used [ns]
 HALF_A_NANOSECOND = 0.5e-9  # two stamps differ by more [s]
-REMEMBERED = 10_000  # contacts that no tick has used yet
+REMEMBERED = 10_000  # contacts that no tick has used yet: ten seconds of the fastest sensor
 LAW = ('kp', 'kd', 'theta_desired')  # what each tick tells of the law
 
 

@@ -38,8 +38,8 @@ from tactile_push.replay.own_ticks import OwnTicks
 from tactile_push.replay.parameters import FingerParameters
 from tactile_push.replay.sensing import ReplayedSensing
 
-PATIENCE = 2 * 10**9  # after which a recorded command belongs to no tick [ns]
-REMEMBERED = 1000  # control periods whose recorded command has not come
+PATIENCE = 2 * 10**9  # after which a recorded command belongs to no tick [ns]: twice a tick's wait
+REMEMBERED = 1000  # control periods whose recorded command has not come; picked, far more than 2 s
 
 FOLLOWS_CHANGES = (ReplayedGeometry, ReplayedController)
 

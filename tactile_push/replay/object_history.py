@@ -18,7 +18,7 @@ from tactile_push.replay.messages import nanoseconds
 from tactile_push.report.merit import known_step
 
 BOUNDS = ('d_lower', 'd_upper', 'd_least', 'd_most')
-ROUNDING = 1e-9  # of a length [m]
+ROUNDING = 1e-9  # of a length [m], far below any length that matters
 
 
 @dataclass(frozen=True)

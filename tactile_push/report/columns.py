@@ -53,7 +53,7 @@ TAKEN: Mapping[str, Set[str]] = {
 } | {TACTILE: frozenset(), GEOMETRY_STATE: frozenset(['refusal'])}
 LEVELS = (None, WARNING, ERROR, ERROR)  # of diagnostics: ok, warn, error, stale
 PROGRESS_EVERY = 1000  # messages
-FAR = 10.0  # between stamp and log time: the stamp is of another clock [s]
+FAR = 10.0  # between stamp and log time: a message takes less, so the stamp is of another clock [s]
 
 Column = npt.NDArray[np.float64]
 Table = dict[str, Column]

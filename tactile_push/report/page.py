@@ -41,10 +41,10 @@ VIEWED = {
     **dict.fromkeys(('finger_x', 'belt_travel'), (MILLIMETRES, 0.0, 2)),
     'state': (1.0, 0.0, 0),
 }
-UNSEEN = 1e-3  # gap between two episodes in the plot, relative to the duration
-HOLD = 1.0  # the view shows no value that is older [s]
+UNSEEN = 1e-3  # gap between two episodes, relative to the duration: about a pixel
+HOLD = 1.0  # the view shows no value that is older [s]: ten control periods of the paper
 SCRIPTS = ('page.js', 'plots.js', 'view.js')
-MOST_ROWS = 50  # of kinds of episodes
+MOST_ROWS = 50  # of kinds of episodes: as many as a person may read; picked
 
 
 def report_html(run: Run) -> str:

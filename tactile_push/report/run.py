@@ -59,7 +59,7 @@ SOURCES = {
 DOING = (*STATES, *(f'{STOPPED}: {reason}' for reason in STOP_REASONS[1:]))
 # Refusals that are no fault: a finger in the air, and a reading that came twice.
 NO_FAULT = {'no contact': (NOTE, 'no contact'), 'not newer': None}
-TICK_LASTS = 1.0  # the last state of the controller counts for so long [s]
+TICK_LASTS = 1.0  # the last state of the controller counts for ten periods of the paper [s]
 STATUS_LASTS = 2.0  # a node's status counts for so long; it comes once a second [s]
 
 

@@ -16,9 +16,9 @@ from tactile_push.report.columns import Table
 from tactile_push.report.data import Scene
 from tactile_push.simulation import RigConfig, paper_block, paper_disk
 
-SPACING = 0.001  # of points on round outlines [m]
-NEAR = 0.001  # how far from its contacts the outline of a paper's object may be [m]
-TRIED = 50  # contacts
+SPACING = 0.001  # of points on round outlines [m]: the paper's disk looks round
+NEAR = 0.001  # between contacts and a paper's outline [m]; block and disk differ by more
+TRIED = 50  # contacts, spread over the run; picked
 
 
 def scene_of(plant: Mapping[str, object] | None, tables: Mapping[str, Table]) -> Scene:

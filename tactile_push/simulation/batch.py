@@ -31,7 +31,7 @@ from tactile_push.simulation.rollout import (
 )
 from tactile_push.simulation.servo import Servo
 
-CHUNKS_PER_WORKER = 8
+CHUNKS_PER_WORKER = 8  # so that cores whose runs end early get more; picked
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,7 +4,7 @@
 
 import math
 
-LONGEST_LOOK = 0.01  # of the wall time between two looks no more counts: nobody looked [s]
+LONGEST_LOOK = 0.01  # more wall time between two looks does not count [s]: nobody looked
 
 
 class Pace:

@@ -28,7 +28,7 @@ from tactile_push.simulation.rig import RigConfig
 from tactile_push.simulation.servo import Servo, lagged, quantised
 
 THETA, PHI, D, X, Y, MODE = range(6)  # columns of a history
-QUANTITIES = 6
+QUANTITIES = 6  # how many columns that is
 WHOLE = 1e-9  # rounding of a delay that is a whole number of periods
 
 _push_angle = equation(push_angle)

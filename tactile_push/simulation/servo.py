@@ -10,7 +10,7 @@ import numpy as np
 
 from tactile_push.mechanics.compiled import equation
 
-FLAT = 1e-6  # how far a path may bend away from the straight pushes that stand for it [m]
+FLAT = 1e-6  # how far a path may bend away from its straight pushes [m]; no sensor sees that
 FOLLOWED = 1e-9  # a velocity so near to its command has reached it [m/s]
 
 

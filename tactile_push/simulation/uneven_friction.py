@@ -5,7 +5,7 @@
 import math
 from dataclasses import dataclass
 
-PIECES = 64  # of a ripple, in which the friction counts as even
+PIECES = 64  # of a ripple, in which friction counts as even: it changes by 0.1 of the ripple
 
 
 @dataclass(frozen=True)

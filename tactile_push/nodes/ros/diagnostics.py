@@ -16,8 +16,8 @@ from tactile_push.interface import DIAGNOSTICS
 
 # By REP-107: all is well; something to look at, the work goes on; the work has stopped.
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
-PERIOD = 1.0  # between reports [s]
-LOOKS = 10  # at the level, a report
+PERIOD = 1.0  # between reports [s], as is usual for /diagnostics
+LOOKS = 10  # at the level, a report: an error is told within 0.1 s
 
 
 @dataclass(frozen=True)

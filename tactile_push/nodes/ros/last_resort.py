@@ -6,7 +6,7 @@ import ctypes
 import time
 
 LIBRARY = 'librt.so.1'  # with the C library, in which newer ones have the timers
-SIGEV_THREAD = 2
+SIGEV_THREAD = 2  # of <signal.h>: the timer calls a function in a thread of its own
 
 
 class _Event(ctypes.Structure):

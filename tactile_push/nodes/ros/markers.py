@@ -16,7 +16,7 @@ from tactile_push.parameters import ActiveSensingParameters
 from tactile_push.pipeline.orientation import quaternion_of_yaw
 from tactile_push.simulation import Rig
 
-HEIGHT = 0.02  # of what stands on the belt [m]
+HEIGHT = 0.02  # of what stands on the belt [m]; picked, as all sizes and colours here
 ABOVE = 0.022  # height of an estimate, so that it is seen beside the true object [m]
 SPACING = 0.002  # of points on curved outlines [m]
 STEEL = ColorRGBA(r=0.55, g=0.60, b=0.68, a=1.0)

@@ -9,8 +9,8 @@ from rclpy.node import Node
 
 from tactile_push.pipeline.stamps import epoch_of, seconds_since
 
-AT_ONCE = 1e-3  # in which two clocks are read, unless something comes in between [s]
-TRIES = 10
+AT_ONCE = 1e-3  # two clocks are read within microseconds unless something comes in between [s]
+TRIES = 10  # to read them at once; picked
 
 
 class NodeTime:

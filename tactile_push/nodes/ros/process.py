@@ -20,7 +20,7 @@ from tactile_push.nodes.ros.last_resort import exit_after
 from tactile_push.nodes.ros.parameters import ConfigurationError
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # by a person, a manager, a terminal
-FAREWELL = 2.0  # for the middleware to leave, once all else has ended [s]
+FAREWELL = 2.0  # for the middleware to leave [s]; a healthy one takes a fraction of it
 
 
 def run(node_class: type[Node]) -> int:
