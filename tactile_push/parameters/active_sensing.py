@@ -6,15 +6,13 @@ import math
 import typing
 from dataclasses import dataclass
 
-import numpy as np
-
 from tactile_push.control import Limits
 from tactile_push.paper import BLOCK_EDGE, BLOCK_L
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
 
 if typing.TYPE_CHECKING:
-    from tactile_push.estimation import ActiveSensing
+    from tactile_push.estimation import ActiveSensing, Edge
 
 X, Y = BLOCK_EDGE / 2.0, BLOCK_L  # of a corner of the paper's block [m]
 
@@ -59,6 +57,34 @@ class ActiveSensingParameters(NodeParameters):
         0.01, 10.0, read_only=True)
     # fmt: on
 
+    @property
+    def corners(self) -> list[tuple[float, float]]:
+        """Corners of the outline about the centre of mass [m]."""
+        return list(zip(self.vertices[::2], self.vertices[1::2], strict=False))
+
+
+def possible_edges(p: ActiveSensingParameters) -> 'tuple[Edge, ...]':
+    """Return the edges that may be pushed as far as the parameters tell, none of a disk.
+
+    Raises
+    ------
+    ValueError
+        If the outline is none or has no such edge.
+    """
+    from tactile_push.estimation import edges_of  # which loads the compiler
+
+    if p.disk_radius > 0.0:
+        return ()
+    numbers = len(p.vertices)
+    if numbers % 2 or numbers < 6:
+        raise ValueError(
+            f'vertices: expected x and y of three corners or more, got {numbers} numbers'
+        )
+    edges = edges_of(p.corners)
+    if p.edge >= len(edges):
+        raise ValueError(f'edge: expected -1 to {len(edges) - 1}, got {p.edge}')
+    return edges if p.edge < 0 else edges[p.edge : p.edge + 1]
+
 
 def make_sensing(p: ActiveSensingParameters) -> 'ActiveSensing':
     """Make active sensing that knows nothing yet.
@@ -73,7 +99,6 @@ def make_sensing(p: ActiveSensingParameters) -> 'ActiveSensing':
         DiskEstimator,
         FingerMotion,
         ObjectEstimator,
-        edges_of,
     )
 
     for name in ('c', 'mu_c'):
@@ -84,13 +109,8 @@ def make_sensing(p: ActiveSensingParameters) -> 'ActiveSensing':
     if p.disk_radius > 0.0:
         estimator = DiskEstimator(p.disk_radius, p.noise, radius=p.finger_radius)
     else:
-        edges = edges_of(_points(p.vertices))
-        if p.edge >= len(edges):
-            raise ValueError(f'edge: expected -1 to {len(edges) - 1}, got {p.edge}')
-        if p.edge >= 0:
-            edges = edges[p.edge : p.edge + 1]
         estimator = ObjectEstimator(
-            edges,
+            possible_edges(p),
             p.noise,
             c=(p.c_min, p.c_max),
             mu_c=(p.mu_c_min, p.mu_c_max),
@@ -99,11 +119,3 @@ def make_sensing(p: ActiveSensingParameters) -> 'ActiveSensing':
         )
     motion = FingerMotion(p.finger_lag, p.finger_delay)
     return ActiveSensing(estimator, motion, p.belt_speed, p.contact_timeout)
-
-
-def _points(vertices: list[float]) -> np.ndarray:
-    if len(vertices) % 2 or len(vertices) < 6:
-        raise ValueError(
-            f'vertices: expected x and y of three corners or more, got {len(vertices)} numbers'
-        )
-    return np.array(vertices).reshape(-1, 2)

@@ -85,8 +85,7 @@ def estimate(
         steps[namespace] = Sensing(make_sensing(values), seconds)
         known = {*parameters.recorded[ACTIVE_SENSING], *parameters.wanted[ACTIVE_SENSING]}
         told = bool(known & {'vertices', 'disk_radius'})
-        corners = zip(values.vertices[::2], values.vertices[1::2], strict=True)
-        pushed = object_with(corners, values.disk_radius)
+        pushed = object_with(values.corners, values.disk_radius)
         finger = namespace.removeprefix('/')
         histories[namespace] = ObjectHistory(finger, bag.start_time, told, pushed)
     inputs = {f'{n}/{topic}': (n, topic) for n in namespaces for topic in INPUTS}

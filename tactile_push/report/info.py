@@ -13,13 +13,12 @@ from tactile_push.bags.survey import FileInfo, TopicInfo, survey
 from tactile_push.interface import (
     CONTROLLER_STATE,
     JOINT_STATE_TYPE,
-    SIM_PLANT,
     VERSION_NOTE,
     fingers,
-    node_in,
 )
 from tactile_push.report.columns import TAKEN, Columns, node_parameters, positions
-from tactile_push.report.merit import PushFigures, plant_object, push_figures
+from tactile_push.report.merit import PushFigures, push_figures
+from tactile_push.report.pushed import pushed_object
 
 
 @dataclass(frozen=True)
@@ -77,8 +76,10 @@ def bag_info(
     pushes = {}
     for name, columns in states.items():
         namespace = name.removesuffix(f'/{CONTROLLER_STATE}')
-        pushed, l = plant_object((parameters or {}).get(node_in(namespace, SIM_PLANT), {}))
-        pushes[namespace] = push_figures(columns.table(), band, l, pushed)
+        pushed = pushed_object(parameters or {}, namespace)
+        pushes[namespace] = push_figures(columns.table(), band, pushed.l, pushed.object)
+        if pushed.remark:
+            remarks.append(pushed.remark)
     return BagInfo(
         path=bag.path,
         files=found.files,

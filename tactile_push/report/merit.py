@@ -3,7 +3,7 @@
 """The paper's figures of merit, from the states that the controller published (Section V.C)."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -11,26 +11,10 @@ import numpy as np
 
 from tactile_push.control import PUSHING, STATES, STOP_REASONS, STOPPED, settle_step
 from tactile_push.estimation import contact_of_translation
-from tactile_push.paper import (
-    BLOCK,
-    BLOCK_EDGE,
-    BLOCK_L,
-    DISK,
-    DISK_RADIUS,
-    OTHER,
-    TRANSLATING_STEP,
-    PaperFigures,
-    Range,
-    paper_figures,
-)
+from tactile_push.paper import TRANSLATING_STEP, PaperFigures, Range, paper_figures
 from tactile_push.report.columns import Column, Table
 
 KNOWN = 0.002  # d is known if its 95 % interval is no wider; the paper reads off 1.8 mm [m]
-# The parameters of `sim_plant` that are the sizes of an object, l last, and the paper's values.
-SIZES = {
-    BLOCK: {'edge_length': BLOCK_EDGE, 'edge_to_cm': BLOCK_L},
-    DISK: {'disk_radius': DISK_RADIUS},
-}
 # What the figures are computed from.
 OF_STEPS = ('theta', 'theta_desired', 'phi', 'v_x', 'saturated', 'limited')
 FIELDS = (*OF_STEPS, 'silence', 'state', 'stop_reason', 'ticks', 'ticks_lost')
@@ -120,23 +104,6 @@ def push_figures(
         silence_at=silence_at,
         stops=_stops(time, states.get('stamp', time), stopped, column['stop_reason']),
         paper=None if theta_desired is None else paper_figures(theta_desired, pushed),
-    )
-
-
-def plant_object(plant: Mapping[str, object]) -> tuple[str | None, float | None]:
-    """Return what the plant with these parameters pushes, and its l [m].
-
-    The object is `BLOCK` or `DISK` if it has the paper's sizes, otherwise `OTHER`.
-    """
-    if 'object' not in plant:
-        return None, None
-    named = str(plant['object'])
-    sizes = SIZES.get(named, {})
-    given = {name: plant[name] for name in sizes if name in plant}
-    l = given.get(list(sizes)[-1]) if sizes else None
-    return (
-        named if sizes and all(given[name] == sizes[name] for name in given) else OTHER,
-        l if isinstance(l, float) and math.isfinite(l) and l > 0.0 else None,
     )
 
 

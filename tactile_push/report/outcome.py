@@ -13,7 +13,8 @@ from rich.table import Table as RichTable
 from tactile_push.control import PUSHING, STATES
 from tactile_push.paper import TOLERANCE, PaperFigures, Range, paper_figures
 from tactile_push.report.columns import Table
-from tactile_push.report.merit import KNOWN, PushFigures, known_step, plant_object, push_figures
+from tactile_push.report.merit import KNOWN, PushFigures, known_step, push_figures
+from tactile_push.report.pushed import Pushed
 
 DEGREES, MILLIMETRES = 180.0 / math.pi, 1e3
 
@@ -26,18 +27,16 @@ class Row(NamedTuple):
     paper: str = ''
 
 
-def outcome_of(ticks: Table, sensing: Table, plant: Mapping[str, object]) -> list[Row]:
-    """Return the figures of merit of a run.
+def outcome_of(ticks: Table, sensing: Table, pushed: Pushed) -> list[Row]:
+    """Return the figures of merit of a run in which this object was pushed.
 
     `ticks` and `sensing` are the columns of `push_controller/state` and `active_sensing/state`,
-    empty if they were not recorded; `plant` are the parameters of `sim_plant`, as far as they are
-    known.
+    empty if they were not recorded.
     """
     if not ticks:
         return []
-    pushed, l = plant_object(plant)
-    paper = paper_figures(float(ticks.get('theta_desired', [math.nan])[-1]), pushed)
-    push = push_figures(ticks, paper.band if paper else TOLERANCE, l, pushed)
+    paper = paper_figures(float(ticks.get('theta_desired', [math.nan])[-1]), pushed.object)
+    push = push_figures(ticks, paper.band if paper else TOLERANCE, pushed.l, pushed.object)
     known = None
     if 'state' in ticks and {'d_lower', 'd_upper'} <= sensing.keys():
         widths = sensing['d_upper'] - sensing['d_lower']

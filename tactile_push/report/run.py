@@ -34,6 +34,7 @@ from tactile_push.report.columns import (
 from tactile_push.report.data import ERROR, NOTE, WARNING, Episode, Run, Series
 from tactile_push.report.episodes import Label, episodes, joined
 from tactile_push.report.outcome import outcome_of
+from tactile_push.report.pushed import pushed_object
 from tactile_push.report.scene import scene_of
 from tactile_push.tactile import REFUSALS
 
@@ -113,7 +114,11 @@ def read_run(bag: BagReader, progress: Callable[[int], None] = lambda done: None
     plant = parameters.get(node_in(namespace, SIM_PLANT))
     duration = (bag.end_time - bag.start_time) * 1e-9
     series = _series(tables)
-    names = ', '.join(name or '/' for name in others)
+    ticks = tables.get(CONTROLLER_STATE, {})
+    pushed = pushed_object(parameters, namespace)
+    warnings = [pushed.remark] if ticks and pushed.remark else []
+    if others:
+        warnings.append(f'not shown: the topics in {", ".join(name or "/" for name in others)}')
     return Run(
         name=bag.path.resolve().name,
         duration=duration,
@@ -122,11 +127,9 @@ def read_run(bag: BagReader, progress: Callable[[int], None] = lambda done: None
         episodes=joined(_episodes(tables, statuses), 0.0, duration),
         scene=scene_of(plant, tables),
         facts=_facts(bag, duration),
-        outcome=outcome_of(
-            tables.get(CONTROLLER_STATE, {}), tables.get(SENSING_STATE, {}), plant or {}
-        ),
+        outcome=outcome_of(ticks, tables.get(SENSING_STATE, {}), pushed),
         tables=_details(bag, parameters),
-        warnings=[f'not shown: the topics in {names}'] if others else [],
+        warnings=warnings,
     )
 
 

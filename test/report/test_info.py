@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is in a bag, against bags of which it is known."""
 
+import json
 import math
 
 import numpy as np
@@ -148,6 +149,28 @@ def test_several_fingers_and_what_is_known_of_them(tmp_path):
     assert disk.d_range == pytest.approx((-0.0285 / math.tan(math.radians(82.5)),) * 2)
     assert info.version == '1.2.3'
     assert info.parameters['push_controller']['kp'] == 0.05
+
+
+@pytest.mark.parametrize('edge', [1, -1])
+def test_d_of_a_finger_without_a_simulator_follows_from_the_outline_of_active_sensing(
+    tmp_path, edge
+):
+    vertices = [-0.04, -0.016, 0.04, -0.016, 0.04, 0.016, -0.04, 0.016]
+    told = {'active_sensing': {'vertices': vertices, 'edge': edge}}
+    notes = {'tactile_push.parameters': json.dumps(told)}
+    info = info_of(write_file(tmp_path / 'x.mcap', {STATE: pushes(math.radians(-10.0))}, notes))
+    (push,) = info.pushes.values()
+    assert push.paper is None  # which pushed a block of another size
+    if edge < 0:
+        assert push.l is push.d_range is None
+        assert info.remarks == [
+            'l is not known: /active_sensing was not told which edge is pushed, so l is 16 or 40 mm'
+        ]
+    else:
+        assert push.l == pytest.approx(0.04)
+        # (17) by hand: -l / tan(82.5 deg + 10 deg).
+        assert push.d_range == pytest.approx((-0.04 / math.tan(math.radians(92.5)),) * 2)
+        assert info.remarks == []
 
 
 @pytest.mark.parametrize('text', ['{', '[]', '{"node": 3}', ''])

@@ -7,9 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from tactile_push.paper import OTHER
 from tactile_push.report.columns import Columns
-from tactile_push.report.merit import FIELDS, KNOWN, known_step, plant_object, push_figures
+from tactile_push.report.merit import FIELDS, KNOWN, known_step, push_figures
 
 BAND = 0.05
 PERIOD = 0.1
@@ -189,24 +188,6 @@ def test_figures_of_long_runs(settled):
     assert figures.v_x_range == (theta.min(), theta.max())
     assert figures.saturated_share == pytest.approx(np.mean(theta > 0))
     assert figures.steps == count
-
-
-@pytest.mark.parametrize(
-    ('plant', 'pushed', 'l'),
-    [
-        ({}, None, None),
-        ({'object': 'block', 'edge_length': 0.05, 'edge_to_cm': 0.02375}, 'block', 0.02375),
-        ({'object': 'block', 'edge_length': 0.08, 'edge_to_cm': 0.02375}, OTHER, 0.02375),
-        ({'object': 'block', 'edge_length': 0.05, 'edge_to_cm': 0.03}, OTHER, 0.03),
-        ({'object': 'block', 'edge_to_cm': math.nan}, OTHER, None),
-        ({'object': 'disk', 'edge_to_cm': 0.03, 'disk_radius': 0.0285}, 'disk', 0.0285),
-        ({'object': 'disk', 'disk_radius': 0.03}, OTHER, 0.03),
-        ({'object': 'disk'}, 'disk', None),
-        ({'object': 7}, OTHER, None),
-    ],
-)
-def test_object_of_the_plant_is_the_papers_only_with_its_sizes(plant, pushed, l):
-    assert plant_object(plant) == (pushed, l)
 
 
 NARROW, WIDE = KNOWN, 1.01 * KNOWN

@@ -86,6 +86,27 @@ def test_finger_in_a_namespace_is_found_with_its_own_plant(tmp_path, namespace, 
     assert run.warnings == []
 
 
+def test_l_is_that_of_active_sensing_without_a_simulator_and_a_difference_is_a_warning(tmp_path):
+    sensing = {'active_sensing': {'vertices': [-0.03, -0.03, 0.03, -0.03, 0.0, 0.06], 'edge': 0}}
+    for name, parameters, l, warnings in (
+        ('hardware', sensing, '30', []),
+        (
+            'both',
+            PARAMETERS | sensing,
+            '23.75',
+            ['l is 23.75 mm by the parameters of /sim_plant and 30 mm by those of /active_sensing'],
+        ),
+    ):
+        run = run_of(write_bag(tmp_path / name, parameters=parameters))
+        outcome = {what: here for what, here, _ in run.outcome}
+        assert outcome['l [mm]'] == l
+        # (17) by hand, -l / tan(phi - theta), at the steps of the last third.
+        last = [t / 10.0 for t in range(121) if not 60 <= t < 70][-37:]
+        d = [-float(l) / math.tan(phi(t) - theta(t)) for t in last]
+        assert outcome['so d by (17) [mm]'] == f'{min(d):.2f} to {max(d):.2f}'
+        assert run.warnings == warnings
+
+
 def test_contradictions_are_episodes(tmp_path):
     run = run_of(sensing_bag(tmp_path / 'bag', [0.05] * 6, [0.0, 3.0, 3.0, 0.0, 99.0, 1.0]))
     found = [(e.lane, e.text, e.level, e.start, e.end) for e in run.episodes]

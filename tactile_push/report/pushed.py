@@ -1,0 +1,97 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a finger pushed and how far its edge is from the centre of mass, by the recorded parameters.
+
+The simulator knows. Where there is none, it is what active sensing was told.
+"""
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from tactile_push.interface import ACTIVE_SENSING, SIM_PLANT, node_in
+from tactile_push.paper import (
+    BLOCK,
+    BLOCK_EDGE,
+    BLOCK_L,
+    DISK,
+    DISK_RADIUS,
+    OTHER,
+    object_with,
+)
+from tactile_push.parameters import ActiveSensingParameters
+from tactile_push.parameters.active_sensing import possible_edges
+
+# The parameters of `sim_plant` that are the sizes of an object, l last, and the paper's values.
+SIZES = {
+    BLOCK: {'edge_length': BLOCK_EDGE, 'edge_to_cm': BLOCK_L},
+    DISK: {'disk_radius': DISK_RADIUS},
+}
+OUTLINE = {'vertices', 'disk_radius'}  # the parameters of `active_sensing` that tell the object
+ALIKE = 1e-3  # of lengths, in units of themselves
+
+
+class Pushed(NamedTuple):
+    """An object as far as it is known: `BLOCK`, `DISK` or `OTHER`, and l [m]; None is unknown."""
+
+    object: str | None = None
+    l: float | None = None
+    remark: str = ''  # why l is not known, or what else nodes were told of it; empty if nothing
+
+
+def pushed_object(parameters: Mapping[str, Mapping[str, object]], namespace: str) -> Pushed:
+    """Return what the finger in a namespace pushed, by the parameters of its nodes."""
+    plant, sensing = (node_in(namespace, node) for node in (SIM_PLANT, ACTIVE_SENSING))
+    pushed, l = plant_object(parameters.get(plant, {}))
+    told, possible = _told_object(parameters.get(sensing, {}))
+    words = ' or '.join(f'{one * 1e3:g}' for one in possible) + ' mm'
+    if pushed is None:
+        pushed = told
+    if l is None and len(possible) == 1:
+        return Pushed(pushed, possible[0])
+    if l is None and possible:
+        why = f'l is not known: /{sensing} was not told which edge is pushed, so l is {words}'
+        return Pushed(pushed, None, why)
+    if l is not None and possible and not any(_alike(l, one) for one in possible):
+        why = (
+            f'l is {l * 1e3:g} mm by the parameters of /{plant} and {words} by those of /{sensing}'
+        )
+        return Pushed(pushed, l, why)
+    return Pushed(pushed, l)
+
+
+def plant_object(plant: Mapping[str, object]) -> tuple[str | None, float | None]:
+    """Return what the plant with these parameters pushes, and its l [m].
+
+    The object is `BLOCK` or `DISK` if it has the paper's sizes, otherwise `OTHER`.
+    """
+    if 'object' not in plant:
+        return None, None
+    named = str(plant['object'])
+    sizes = SIZES.get(named, {})
+    given = {name: plant[name] for name in sizes if name in plant}
+    l = given.get(list(sizes)[-1]) if sizes else None
+    return (
+        named if sizes and all(given[name] == sizes[name] for name in given) else OTHER,
+        l if isinstance(l, float) and math.isfinite(l) and l > 0.0 else None,
+    )
+
+
+def _told_object(sensing: Mapping[str, object]) -> tuple[str | None, list[float]]:
+    """Return what active sensing was told of the object, and each l that this leaves possible."""
+    if not OUTLINE & set(sensing):
+        return None, []
+    try:
+        told = ActiveSensingParameters.of(sensing)
+        distances = sorted(edge.l for edge in possible_edges(told)) or [told.disk_radius]
+    except ValueError:  # of another version
+        return None, []
+    possible = distances[:1]
+    for distance in distances:
+        if not _alike(distance, possible[-1]):
+            possible.append(distance)
+    return object_with(told.corners, told.disk_radius), possible
+
+
+def _alike(one: float, other: float) -> bool:
+    return math.isclose(one, other, rel_tol=ALIKE)
