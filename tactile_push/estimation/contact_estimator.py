@@ -23,57 +23,32 @@ ANY_THETA = math.pi**2 / 12.0  # variance of a theta of which nothing is known [
 
 @dataclass(frozen=True)
 class Quantity:
-    """What is known of one number.
+    """What is known of one number."""
 
-    Parameters
-    ----------
-    mean, lower, upper : float
-        Mean and 95 % interval.
-    least, most : float
-        Guaranteed bounds.
-    """
-
-    mean: float
-    lower: float
-    upper: float
-    least: float
-    most: float
+    mean: float  #: mean
+    lower: float  #: lower end of the 95 % interval
+    upper: float  #: upper end of the 95 % interval
+    least: float  #: guaranteed lower bound
+    most: float  #: guaranteed upper bound
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """What is known at the last reading.
+    """What is known at the last reading; with a contradiction, the prior.
 
-    Parameters
-    ----------
-    d : Quantity
-        Contact along the edge [m].
-    c : Quantity
-        Ratio m_max / f_max [m] of the ellipsoid that turns as the object does when it hardly turns,
-        in the middle between the directions of its motion.
-    mu_c : Quantity
-        Friction between finger and object; its mean is that of the friction angle.
-    theta : float
-        Angle of the edge without the readings' noise [rad]; NaN before the first reading.
-    covariance : ndarray, shape (4, 4)
-        Covariance of theta, d, l and the radius of the finger's disk [rad, m, m, m].
-    l, radius : float
-        Distance from the edge to the centre of mass, and radius of the finger's disk [m].
-    surprise : float
-        Mean square of the last readings' normalised errors, 1 on average.
-    contradiction : str
-        Why no number is to be believed; empty otherwise. All numbers are the prior's then.
+    `c` is that of the ellipsoid that turns as the object does when it hardly turns, in the middle
+    between the directions of its motion.
     """
 
-    d: Quantity
-    c: Quantity
-    mu_c: Quantity
-    theta: float
-    covariance: Array
-    l: float
-    radius: float
-    surprise: float
-    contradiction: str
+    d: Quantity  #: contact along the edge [m]
+    c: Quantity  #: m_max / f_max [m], see above
+    mu_c: Quantity  #: friction between finger and object; its mean is that of the friction angle
+    theta: float  #: angle of the edge without the readings' noise [rad]; NaN before the first one
+    covariance: Array  #: of theta, d, l and `radius` [rad, m, m, m], shape (4, 4)
+    l: float  #: distance from the edge to the centre of mass [m]
+    radius: float  #: radius of the finger's disk [m]
+    surprise: float  #: mean square of the last readings' normalised errors, 1 on average
+    contradiction: str  #: why to believe no number; empty otherwise
 
 
 class ContactEstimator:

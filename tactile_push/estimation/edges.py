@@ -18,27 +18,14 @@ ANY_RADIUS = 1.0  # of the finger's disk [m]: where its path is straight does no
 
 @dataclass(frozen=True)
 class Edge:
-    """A straight edge that may be pushed.
+    """A straight edge that may be pushed."""
 
-    Parameters
-    ----------
-    number : int
-        From 0: from vertex `number` to the next one, counterclockwise.
-    d : tuple of float
-        Its ends, least and most d [m].
-    l : float
-        Distance from the edge to the centre of mass [m].
-    angle : float
-        Its direction in the object's frame [rad]: the object's angle is theta less this one.
-    moments : tuple of float, optional
-        Second moments of the object's area along the edge, mixed and along the normal, divided by
-        the root of their determinant: what a slender object's resistance to turning depends on.
-    """
-
-    number: int
-    d: tuple[float, float]
-    l: float
-    angle: float
+    number: int  #: from 0, counterclockwise; from vertex `number` to the next one
+    d: tuple[float, float]  #: its ends, least and most d [m]
+    l: float  #: distance from the edge to the centre of mass [m]
+    angle: float  #: direction in the object's frame [rad]; the object's angle is theta less it
+    #: second moments of the object's area along the edge, mixed and along the normal, divided by
+    #: the root of their determinant, on which a slender object's resistance to turning depends
     moments: tuple[float, float, float] = ROUND
 
     @property

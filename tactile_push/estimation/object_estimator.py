@@ -25,46 +25,25 @@ EDGE_EXCLUDED = 0.01  # weight of an edge, of the best one's, that the 95 % inte
 class ObjectEstimate:
     """What is known of the object at the last reading.
 
-    Parameters
-    ----------
-    edges : tuple of Edge
-        The edges that may be pushed; none of a disk.
-    weights : ndarray, shape (N,)
-        Probability of each one.
-    estimates : tuple of Estimate
-        What is known if it is this one.
-    edge : int
-        Index of the most likely one; -1 of a disk.
-    d, c, mu_c : Quantity
-        Contact along the edge [m], m_max / f_max [m] and friction between finger and object: the
-        mean under the most likely edge, the hull of the 95 % intervals of all edges that are not
-        unlikely, and the hull of the guaranteed bounds of all edges that are not excluded.
-    theta : float
-        Angle of the pushed edge [rad]; NaN before the first reading.
-    surprise : float
-        Mean square of the last readings' errors in units of what was expected, 1 on average.
-    contradiction : str
-        Why no number is to be believed, one of `CONTRADICTIONS`; empty if an edge agrees with the
-        readings. All else is what was known before any data then.
-    pose : ndarray, shape (3,)
-        Centre of mass x, y [m] and angle of the object [rad] in the frame of the finger's disk,
-        under the most likely edge; NaN before the first reading.
-    covariance : ndarray, shape (3, 3)
-        Mean products of deviations from `pose`, with those of other edges that may be pushed.
+    Of `d`, `c` and `mu_c` it is the mean under the most likely edge, the hull of the 95 % intervals
+    of all edges that are not unlikely, and the hull of the guaranteed bounds of all edges that are
+    not excluded. The pose is that under the most likely edge, with a covariance that covers the
+    other edges that may be pushed; both are NaN before the first reading. With a contradiction, all
+    else is what was known before any data.
     """
 
-    edges: tuple[Edge, ...]
-    weights: Array
-    estimates: tuple[Estimate, ...]
-    edge: int
-    d: Quantity
-    c: Quantity
-    mu_c: Quantity
-    theta: float
-    surprise: float
-    contradiction: str
-    pose: Array
-    covariance: Array
+    edges: tuple[Edge, ...]  #: the edges that may be pushed; none of a disk
+    weights: Array  #: probability of each one, shape (N,)
+    estimates: tuple[Estimate, ...]  #: what is known if it is this one
+    edge: int  #: index of the most likely one; -1 of a disk
+    d: Quantity  #: contact along the edge [m]
+    c: Quantity  #: m_max / f_max [m]
+    mu_c: Quantity  #: friction between finger and object
+    theta: float  #: angle of the pushed edge [rad]; NaN before the first reading
+    surprise: float  #: mean square of the last readings' normalised errors, 1 on average
+    contradiction: str  #: why to believe no number, one of `CONTRADICTIONS`; empty otherwise
+    pose: Array  #: centre of mass x, y [m] and angle [rad] in the frame of the disk, shape (3,)
+    covariance: Array  #: mean products of deviations from `pose`, shape (3, 3)
 
 
 class Estimator:

@@ -29,36 +29,20 @@ SHARES = (0.25, 0.5, 0.25)  # of the kinds, before any data
 class Prior:
     """What is known of an object before it is pushed.
 
-    Parameters
-    ----------
-    d : tuple of float
-        Ends of the edge [m]; the same twice if d is known and stays so.
-    l : float
-        Distance from the edge to the centre of mass [m].
-    l_sigma : float, optional
-        Standard deviation of `l` [m]; the guaranteed bounds hold within three of them.
-    c : tuple of float, optional
-        Least and most c [m].
-    mu_c : tuple of float, optional
-        Least and most friction between finger and object, 0 to infinity.
-    moments : tuple of float, optional
-        Second moments of the object's area, see `Edge`.
-    density : callable, optional
-        Probability density over (d, c, mu_c), up to a factor; by default even over d, c and the
-        angle of friction, with 0 and infinity as likely as half of what is between, each.
-
     Raises
     ------
     ValueError
         If a number is out of its range.
     """
 
-    d: tuple[float, float]
-    l: float
-    l_sigma: float = 0.0
-    c: tuple[float, float] = (0.005, 0.036)
-    mu_c: tuple[float, float] = (0.0, math.inf)
-    moments: tuple[float, float, float] = ROUND
+    d: tuple[float, float]  #: ends of the edge [m]; the same twice if d is known and stays so
+    l: float  #: distance from the edge to the centre of mass [m]
+    l_sigma: float = 0.0  #: standard deviation of `l` [m]; bounds hold within three of them
+    c: tuple[float, float] = (0.005, 0.036)  #: least and most c [m]
+    mu_c: tuple[float, float] = (0.0, math.inf)  #: least and most friction of finger and object
+    moments: tuple[float, float, float] = ROUND  #: second moments of the object's area, see `Edge`
+    #: probability density over (d, c, mu_c), up to a factor; by default even over d, c and the
+    #: angle of friction, with 0 and infinity as likely as half of what is between, each
     density: Callable[[float, float, float], float] | None = None
 
     def __post_init__(self) -> None:

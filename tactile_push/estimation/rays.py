@@ -17,28 +17,17 @@ PARALLEL = 10.0  # rays cross at angles of more than so many standard deviations
 class Ray:
     """A ray of pushing: the line through the contact along which the object translates.
 
-    Parameters
-    ----------
-    x, y : float
-        Contact, in a frame fixed to the object [m].
-    angle : float
-        Direction of pushing in that frame [rad].
-    sigma_angle : float
-        Standard deviation of the direction [rad], positive.
-    sigma_contact : float, optional
-        Standard deviation of the contact across the ray [m].
-
     Raises
     ------
     ValueError
         If a number is not finite or a standard deviation out of its range.
     """
 
-    x: float
-    y: float
-    angle: float
-    sigma_angle: float
-    sigma_contact: float = 0.0
+    x: float  #: contact, in a frame fixed to the object [m]
+    y: float  #: the same [m]
+    angle: float  #: direction of pushing in that frame [rad]
+    sigma_angle: float  #: standard deviation of the direction [rad], positive
+    sigma_contact: float = 0.0  #: standard deviation of the contact across the ray [m]
 
     def __post_init__(self) -> None:
         for name in ('x', 'y', 'angle', 'sigma_angle', 'sigma_contact'):

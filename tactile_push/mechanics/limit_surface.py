@@ -24,13 +24,6 @@ ONE_PLACE = 1e-12  # of the support's places, relative to their distance from th
 class EllipsoidalLimitSurface:
     """The ellipsoid (3) that stands for the limit surface.
 
-    Parameters
-    ----------
-    f_max : float
-        Greatest frictional force, in pure translation [N], eq. (2).
-    m_max : float
-        Greatest frictional moment about the centre of mass, in pure rotation [N m], eq. (1).
-
     Raises
     ------
     ValueError
@@ -44,8 +37,8 @@ class EllipsoidalLimitSurface:
     International Journal of Robotics Research 15 (6), 557-572, 1996.
     """
 
-    f_max: float
-    m_max: float
+    f_max: float  #: greatest frictional force, in pure translation [N], eq. (2)
+    m_max: float  #: greatest frictional moment, in pure rotation [N m], eq. (1)
 
     def __post_init__(self) -> None:
         for name in ('f_max', 'm_max'):
@@ -121,11 +114,6 @@ class EllipsoidalLimitSurface:
 class ExactLimitSurface:
     """The limit surface of the points that an object rests on.
 
-    Parameters
-    ----------
-    support : Support
-        The support; wrenches and twists refer to its centre.
-
     Raises
     ------
     ValueError
@@ -137,7 +125,7 @@ class ExactLimitSurface:
     and moment function", Wear 143, 307-330, 1991.
     """
 
-    support: Support
+    support: Support  #: to whose centre wrenches and twists refer
 
     def __post_init__(self) -> None:
         offsets = self.support.points - self.support.centre

@@ -23,16 +23,6 @@ OVERHANG = 1e-6  # how far a support point may stick out, by rounding [length of
 class Slider:
     """An object that slides on its support.
 
-    Parameters
-    ----------
-    outline : Outline
-        The outline, its origin at the centre of mass (or of friction).
-    c : float
-        Ratio m_max / f_max of the limit surface [m].
-    points : ndarray, shape (3, N), optional
-        Rows x, y [m] and load of the support points of an exact limit surface. Without them the
-        limit surface is the ellipsoid.
-
     Raises
     ------
     ValueError
@@ -40,8 +30,9 @@ class Slider:
         not finite rows.
     """
 
-    outline: Outline
-    c: float
+    outline: Outline  #: its origin at the centre of mass (or of friction)
+    c: float  #: ratio m_max / f_max of the limit surface [m]
+    #: rows x, y [m] and load of an exact limit surface's points, (3, N); None for the ellipsoid
     points: Array | None = None
 
     def __post_init__(self) -> None:
