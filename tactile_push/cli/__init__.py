@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""The `tactile_push` command."""
+"""The `tactile_push` command: its subcommands, exit statuses and signals."""
 
 import argparse
 import os

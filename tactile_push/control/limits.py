@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Bounds on the commands to the finger, and on what the controller believes."""
+"""Bounds on commands and on what is believed; `push_control` decides when the finger stops."""
 
 import math
 from dataclasses import dataclass

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a report shows of one run, in SI units; time counts from the start of the bag."""
+"""What a report shows of one run, as `run` reads it; SI units, time from the start of the bag."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
