@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from tactile_push.control import PushLaw, settle_step
-from tactile_push.figures import gain_figure
-from tactile_push.figures.gains import CREEPS, KD, KP, SERVOS, SWINGS, settle_steps
+from tactile_push.figures import gains
+from tactile_push.figures.gains import CREEPS, KD, KP, SERVOS, SWINGS
 from tactile_push.simulation import paper_block, rollout
 
 THETA_D = math.radians(-10.0)
@@ -19,7 +19,7 @@ FRICTIONS = (0.0, 0.3, math.inf)
 @pytest.fixture(scope='module')
 def maps():
     return {
-        (name, mu_c): settle_steps(mu_c, servo)
+        (name, mu_c): gains.settle_steps(mu_c, servo)
         for name, servo in SERVOS.items()
         for mu_c in FRICTIONS
     }
@@ -45,11 +45,11 @@ def test_larger_gains_are_better_with_friction_and_a_perfect_finger(maps, mu_c):
 
 
 def test_a_lagging_finger_makes_larger_gains_fail_without_friction_first(maps):
-    gains = 0.2, 10.0
-    assert 100 < at(maps[PERFECT, 0.0], *gains) < 140
-    assert at(maps[LAG_AND_DELAY, 0.0], *gains) == SWINGS
+    large = 0.2, 10.0
+    assert 100 < at(maps[PERFECT, 0.0], *large) < 140
+    assert at(maps[LAG_AND_DELAY, 0.0], *large) == SWINGS
     for mu_c in (0.3, math.inf):
-        assert 90 < at(maps[LAG_AND_DELAY, mu_c], *gains) < 115
+        assert 90 < at(maps[LAG_AND_DELAY, mu_c], *large) < 115
     assert at(maps[LAG, 0.0], 1.0, 20.0) == SWINGS
     for mu_c in FRICTIONS:
         settles = {name: (maps[name, mu_c] >= 0).mean() for name in SERVOS}
@@ -71,8 +71,10 @@ def test_map_is_what_single_rollouts_do(maps, name, row, column):
     assert maps[name, 0.3][row, column] == expected
 
 
-def test_figure_has_a_row_a_finger_and_a_column_a_friction_with_the_papers_gains_marked():
-    figure = gain_figure()
+def test_figure_has_a_row_a_finger_and_a_column_a_friction_with_the_papers_gains_marked(
+    figures,
+):
+    figure = figures['gains']
     panels, (colorbar,) = figure.axes[:9], figure.axes[9:]
     for axes in panels:
         dots = [line.get_xydata()[0].tolist() for line in axes.get_lines()]
