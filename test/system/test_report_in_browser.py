@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page in a real browser: what it shows, what it does, and that it asks nobody for anything."""
 
+import contextlib
 import math
 import os
 import re
@@ -72,8 +73,8 @@ def page_file(tmp_path_factory):
     return folder / 'page.html'
 
 
-@pytest.fixture
-def opened(browser, page_file):
+@contextlib.contextmanager
+def visits(browser, page_file):
     """Return a function that opens the page; at the end it must have been quiet and alone."""
     contexts, complaints, requests = [], [], []
 
@@ -96,6 +97,20 @@ def opened(browser, page_file):
     fetched = [url for url in requests if not url.startswith(('data:', 'blob:'))]
     assert len(fetched) == len(contexts)
     assert all(url.startswith('file:') for url in fetched)
+
+
+@pytest.fixture
+def opened(browser, page_file):
+    """Return a function that opens the page for this test alone."""
+    with visits(browser, page_file) as open_page:
+        yield open_page
+
+
+@pytest.fixture(scope='module')
+def page(browser, page_file):
+    """Return a page for all tests that read it or move its time, and leave it so."""
+    with visits(browser, page_file) as open_page:
+        yield open_page()
 
 
 def wait_for(page, condition):
@@ -133,8 +148,7 @@ def place(page, t, part):
 
 
 @pytest.mark.parametrize('t', [0.0, 2.5, 4.0, 11.9])
-def test_slider_moves_the_view_to_what_the_bag_has(opened, t):
-    page = opened()
+def test_slider_moves_the_view_to_what_the_bag_has(page, t):
     move_slider(page, t)
     assert time_of(page) == pytest.approx(t, abs=5e-3)
     normal = theta(t) + math.pi / 2.0
@@ -155,16 +169,14 @@ def test_slider_moves_the_view_to_what_the_bag_has(opened, t):
     )
 
 
-def test_outline_is_that_of_the_block_in_the_parameters(opened):
-    page = opened()
+def test_outline_is_that_of_the_block_in_the_parameters(page):
     corners = re.findall(r'-?[\d.]+,-?[\d.]+', page.locator('#outline').get_attribute('d'))
     corners = [tuple(map(float, corner.split(','))) for corner in corners]
     assert sorted(corners) == [(-25.0, -23.75), (-25.0, 23.75), (25.0, -23.75), (25.0, 23.75)]
     assert coordinates(page, '#finger', 'r') == [1e3 * R]
 
 
-def test_friction_cone_opens_by_the_friction_to_both_sides_of_the_normal(opened):
-    page = opened()
+def test_friction_cone_opens_by_the_friction_to_both_sides_of_the_normal(page):
     move_slider(page, 1.0)
     shape = page.locator('#cone').get_attribute('d')
     (apex, right), left = re.findall(r'[ML](\S+?) ', shape.replace('Z', ' ')), shape.split(' ')[-1]
@@ -176,8 +188,7 @@ def test_friction_cone_opens_by_the_friction_to_both_sides_of_the_normal(opened)
     assert angles == pytest.approx([-math.atan(0.3), math.atan(0.3)], abs=1e-4)
 
 
-def test_contact_disappears_while_it_is_silent_and_the_reason_is_told(opened):
-    page = opened()
+def test_contact_disappears_while_it_is_silent_and_the_reason_is_told(page):
     move_slider(page, sum(SILENT) / 2.0)
     assert page.locator('#at-state').text_content() == 'stopped: contact silent'
     for shape in ('#normal', '#push', '#edge', '#cone'):
@@ -188,8 +199,7 @@ def test_contact_disappears_while_it_is_silent_and_the_reason_is_told(opened):
     assert page.locator('#normal').is_visible()
 
 
-def test_keys_move_the_slider_and_press_the_button(opened):
-    page = opened()
+def test_keys_move_the_slider_and_press_the_button(page):
     slider = page.get_by_role('slider', name='Time')
     move_slider(page, 5.0)
     slider.press('ArrowRight')
@@ -221,8 +231,7 @@ def test_button_plays_from_the_start_again_and_pauses(opened):
 
 
 @pytest.mark.parametrize('part', [0.12, 0.35, 0.55, 0.75])
-def test_click_into_any_plot_moves_the_time_and_the_cursor(opened, part):
-    page = opened()
+def test_click_into_any_plot_moves_the_time_and_the_cursor(page, part):
     x, y = place(page, 9.0, part)
     page.mouse.click(x, y)
     assert time_of(page) == pytest.approx(9.0, abs=0.06)
@@ -267,8 +276,7 @@ def test_pointer_over_one_plot_tells_the_values_of_all(opened):
     assert 'silence of contact : 0.020 s' in told
 
 
-def test_episodes_are_drawn_and_listed(opened):
-    page = opened()
+def test_episodes_are_drawn_and_listed(page):
     rows = [row.split('\t') for row in page.locator('#events-section tr').all_inner_texts()]
     found = {row[0].strip(): row[1:] for row in rows}
     assert [float(cell) for cell in found['error controller: stopped: contact silent']] == (
@@ -294,8 +302,7 @@ def test_nothing_that_the_bag_says_comes_to_life(opened):
     assert page.evaluate('window.hacked') is None
 
 
-def test_outcome_stands_beside_that_of_the_paper(opened):
-    page = opened()
+def test_outcome_stands_beside_that_of_the_paper(page):
     rows = page.locator('#summary-section tr').all_inner_texts()
     found = {row.split('\t')[0]: row.replace('\u00a0', ' ').split('\t')[1:] for row in rows}
     steps = int(DURATION * 10) + 1 - 10  # less those in which the finger stood
