@@ -11,6 +11,7 @@ falls with the third power of their length.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -210,7 +211,7 @@ class Outline:
             raise ValueError(f'x, y: expected a point inside the outline, got ({x}, {y}) m')
         return outline
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Length of the outline [m]."""
         return float(self.pieces[:, 3].sum())

@@ -143,7 +143,7 @@ class Slider:
         """
         check_friction(mu_c)
         numbers = (*pose, *start, *end)
-        if not np.isfinite(numbers).all():
+        if not all(map(math.isfinite, numbers)):
             raise ValueError(f'pose, start, end: expected finite numbers, got {numbers}')
         body = self.body(r)
         pose = Pose(*map(float, pose))
