@@ -21,9 +21,9 @@ def add(commands: Commands) -> None:
     diff = commands.add_parser(
         'diff',
         help='compare two bags, message by message',
-        description='Compares two bags topic by topic. Messages with the same stamp in their '
-        'header belong together, those without a header in their order; their contents are '
-        'compared field by field. Exit status: 0 same, 1 different, 2 bad input.',
+        description='Compares two bags topic by topic. It pairs messages by the stamp in their '
+        'header, or by their order if they have none, and compares them field by field. Exit '
+        'status: 0 same, 1 different, 2 bad input.',
     )
     option = diff.add_argument
     option('a', **BAG | {'metavar': 'BAG_A'})

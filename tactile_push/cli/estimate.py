@@ -43,8 +43,8 @@ def add(commands: Commands) -> None:
         estimate,
         config='ROS parameter file with values for active_sensing to use instead of the recorded '
         'ones, such as the outline',
-        out='write a bag, in which what was estimated replaces what was recorded of it',
-        json='write all of it and every control period as one JSON object in SI units; - prints it '
+        out='write a copy of the bag, with these estimates in place of the recorded ones',
+        json='write results and every control period as one JSON object in SI units; - prints it '
         'instead of the summary',
     )
     estimate.set_defaults(run=_estimate)

@@ -38,7 +38,7 @@ def add(commands: Commands) -> None:
         type=number('degrees between 0 and 180', 0.0, 180.0, closed=False),
         default=round(math.degrees(TOLERANCE), 9),
         metavar='DEG',
-        help='how near to its desired value theta counts as settled (default: 3)',
+        help='theta counts as settled this near to its desired value (default: 3)',
     )
     option('--json', action='store_true', help='print one JSON object, SI units')
     info.set_defaults(run=_info)

@@ -17,20 +17,18 @@ def add(commands: Commands) -> None:
     play = commands.add_parser(
         'play',
         help='publish a bag with its timing',
-        description='Publishes the messages of a bag as they were recorded, once the subscribers '
-        'that are there can hear. Space pauses and goes on; right arrow or s publishes the next '
-        'message of a paused play. Nodes that shall take the messages for live ones need --clock '
-        'and use_sim_time:=true: by any other clock the stamps are old.',
+        description='Publishes the messages of a bag with their timing, once the subscribers that '
+        'it finds can hear it. Space pauses and resumes; right arrow or s publishes the next '
+        'message of a paused play. If nodes are to take the messages as live, play with --clock '
+        'and start the nodes with use_sim_time:=true; otherwise they refuse the stamps as old.',
     )
     option = play.add_argument
     option('bag', **BAG | {'type': str})
     rate = number('a factor from 0.001 to 1000', 0.001, 1000.0)
-    option('--rate', type=rate, metavar='X', help="how fast the bag's time goes by (default: 1)")
+    option('--rate', type=rate, metavar='X', help='speed; 2 is twice as fast (default: 1)')
     seconds = number('seconds from 0 to 1e9', 0.0, 1e9)
-    option(
-        '--start', type=seconds, metavar='S', help='begin so long after the beginning of the bag'
-    )
-    option('--duration', type=seconds, metavar='S', help='play so much of it (default: the rest)')
+    option('--start', type=seconds, metavar='S', help='begin this many seconds into the bag')
+    option('--duration', type=seconds, metavar='S', help='play for so long (default: to the end)')
     option('--loop', action='store_true', help='start over at the end, until Ctrl-C')
     option(
         '--clock',
@@ -38,12 +36,12 @@ def add(commands: Commands) -> None:
         nargs='?',
         const=CLOCK_RATE,
         metavar='HZ',
-        help="publish /clock so often by the bag's time, and before each message, in place of "
-        f'that of the bag (HZ: {CLOCK_RATE:g} unless given); at the start of a loop it jumps back',
+        help="publish /clock with the bag's time, HZ times a second and before each message, in "
+        f"place of the bag's own /clock (HZ: {CLOCK_RATE:g} unless given); a loop sets it back",
     )
-    option('--topics', nargs='+', metavar='TOPIC', help='play only these')
+    option('--topics', nargs='+', metavar='TOPIC', help='play only these topics')
     option('--remap', nargs='+', metavar='OLD:=NEW', help='publish topics under other names')
-    option('--start-paused', action='store_true', help='begin with a pause')
+    option('--start-paused', action='store_true', help='begin paused')
     play.set_defaults(run=_play, ros=True)
 
 

@@ -21,32 +21,32 @@ def add(commands: Commands) -> None:
         'rosbags open, until Ctrl-C. A topic is recorded as soon as somebody publishes it.',
     )
     option = record.add_argument
-    option('topics', nargs='*', metavar='TOPIC', help="topics (default: the package's)")
+    option('topics', nargs='*', metavar='TOPIC', help="topics to record (default: the package's)")
     option(
         '-o',
         '--out',
         type=Path,
         metavar='DIR',
-        help='folder that the bag makes, not there yet (default: tactile_push_ and the date)',
+        help='folder of the bag, which must not exist yet (default: tactile_push_ and the date)',
     )
-    option('--all', action='store_true', help='all topics that are not hidden')
+    option('--all', action='store_true', help='record all topics that are not hidden')
     option(
         '--compression',
         choices=('zstd', 'lz4', 'none'),
         default='zstd',
-        help='of the chunks of the file (default: zstd)',
+        help="compression of the file's chunks (default: zstd)",
     )
     option(
         '--max-size',
         type=number('megabytes, more than 0', 0.0, 1e9, closed=False),
         metavar='MB',
-        help='begin another file when one has so many megabytes (default: one file)',
+        help='start another file once one has this many megabytes (default: one file)',
     )
     option(
         '--max-duration',
         type=number('seconds, more than 0', 0.0, 1e9, closed=False),
         metavar='S',
-        help='begin another file after so many seconds (default: one file)',
+        help='start another file once one is this long (default: one file)',
     )
     option(
         '--use-sim-time',

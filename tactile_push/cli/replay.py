@@ -36,8 +36,8 @@ def add(commands: Commands) -> None:
         replay,
         config='ROS parameter file with values for contact_geometry, push_controller and '
         'active_sensing to use instead of the recorded ones; with a section for active_sensing the '
-        'object is sensed even if it was not then',
-        out='write a bag, in which what was computed again replaces what was recorded',
+        'replay senses the object even if that node was not recorded',
+        out='write a copy of the bag, with what was computed again in place of what was recorded',
         json='write every control period as one JSON object in SI units; - prints it instead of '
         'the summary',
     )

@@ -28,9 +28,9 @@ def add(commands: Commands) -> None:
         '--out',
         type=page,
         metavar='FILE',
-        help='page to write; replaced if it is there (default: name of the bag with .html, here)',
+        help='page to write, in place of an older one (default: the name of the bag with .html)',
     )
-    report.add_argument('--json', action='store_true', help='print one JSON object instead')
+    report.add_argument('--json', action='store_true', help='print the file as one JSON object')
     report.set_defaults(run=_report)
 
 

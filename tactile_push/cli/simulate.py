@@ -38,22 +38,22 @@ def add(commands: Commands) -> None:
         formatter_class=argparse.ArgumentDefaultsHelpFormatter,
     )
     option = simulate.add_argument
-    option('--object', default=BLOCK, metavar='block|disk|FILE', help='what is pushed; JSON files')
+    option('--object', default=BLOCK, metavar='block|disk|FILE', help='what is pushed (FILE: JSON)')
     option(
         '--support',
         default='uniform',
         metavar='corners|uniform|circle:RADIUS_M|rim|FILE',
-        help='what the object rests on; a radius in metres',
+        help='what the object rests on; RADIUS_M in metres, FILE is JSON',
     )
     option('--surface', default='ellipsoid', choices=('ellipsoid', 'exact'), help='limit surface')
-    friction = number('a coefficient of friction of 0 or more, or inf', 0.0, math.inf)
-    option('--mu-c', type=friction, default=math.inf, metavar='X|inf', help='finger on object')
+    mu = number('a coefficient of friction of 0 or more, or inf', 0.0, math.inf)
+    option('--mu-c', type=mu, default=math.inf, metavar='X|inf', help='friction at the finger')
     gain = number('a finite gain of 0 or more', 0.0, sys.float_info.max)
     option('--kp', type=gain, default=KP, metavar='X', help='proportional gain [rad/rad]')
     option('--kd', type=gain, default=KD, metavar='X', help='derivative gain [rad/rad]')
     edge = number('degrees between -90 and 90', -90.0, 90.0, closed=False)
     start = math.degrees(THETA_INITIAL)
-    option('--theta0-deg', type=edge, default=start, metavar='DEG', help='edge at the start')
+    option('--theta0-deg', type=edge, default=start, metavar='DEG', help='edge angle at the start')
     length = number('millimetres', -sys.float_info.max, sys.float_info.max)
     option(
         '--d0-mm',
@@ -65,11 +65,11 @@ def add(commands: Commands) -> None:
     )
     ahead = number('degrees between 0 and 180', 0.0, 180.0, closed=False)
     option('--phi0-deg', type=ahead, default=90.0, metavar='DEG', help='first push angle')
-    any_angle = number('degrees between -180 and 180', -180.0, 180.0)
+    angle = number('degrees between -180 and 180', -180.0, 180.0)
     wanted = math.degrees(THETA_DESIRED)
-    option('--theta-desired-deg', type=any_angle, default=wanted, metavar='DEG', help='wanted edge')
+    option('--theta-desired-deg', type=angle, default=wanted, metavar='DEG', help='desired angle')
     option('--steps', type=steps, default=600, metavar='N', help='control periods of 0.1 s')
-    option('--open-loop', action='store_true', help='push at the first angle all the time')
+    option('--open-loop', action='store_true', help='keep the first push angle')
     option(
         '--json',
         metavar='FILE|-',

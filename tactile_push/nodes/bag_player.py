@@ -36,7 +36,7 @@ class BagPlayer(Node):
         super().__init__(self.NAME)
         self._settings = p = declare(self, BagPlayerParameters)
         if not p.bag:
-            raise ConfigurationError('parameter bag: expected the folder of a bag')
+            raise ConfigurationError("parameter bag: expected the folder of a bag, got ''")
         try:
             bag = BagReader(p.bag, self.get_logger().warning)
             part = part_of(
@@ -77,7 +77,9 @@ class BagPlayer(Node):
                 raise ConfigurationError(f'parameter remap: expected OLD:=NEW, got {word!r}')
             topic = topic_in_bag(part.bag, old)
             if topic not in names:
-                raise ConfigurationError(f'parameter remap: {topic} is not played')
+                raise ConfigurationError(
+                    f'parameter remap: expected a topic that is played, got {topic}'
+                )
             try:
                 names[topic] = expand_topic_name(new, self.get_name(), self.get_namespace())
                 validate_full_topic_name(names[topic])
@@ -90,7 +92,9 @@ class BagPlayer(Node):
             taken[CLOCK] += 1
         name, count = taken.most_common(1)[0]
         if count > 1:
-            raise ConfigurationError(f'parameter remap: {count} topics would become {name}')
+            raise ConfigurationError(
+                f'parameter remap: expected different names, got {name} for {count} topics'
+            )
         return names
 
     def _on_pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:

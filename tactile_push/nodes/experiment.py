@@ -43,7 +43,7 @@ class Experiment(Node):
         super().__init__(self.NAME)
         self._settings = declare(self, ExperimentParameters)
         if not self._settings.bag:
-            raise ConfigurationError('parameter bag: expected a folder')
+            raise ConfigurationError("parameter bag: expected a new folder, got ''")
         with refusing('bag'):
             writer = BagWriter(self._settings.bag)
         self._recording = Recording(self, RECORDED, writer)

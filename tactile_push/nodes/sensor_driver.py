@@ -99,7 +99,7 @@ class SensorDriver(ManagedNode):
     def _log_change(self, problem: str) -> None:
         device = self._settings.device
         if problem:
-            self.get_logger().warning(f'{device}: {problem}; trying on')
+            self.get_logger().warning(f'{device}: {problem}; trying again')
         else:
             self.get_logger().info(f'reading {device}')
 

@@ -41,7 +41,7 @@ class ActiveSensingParameters(NodeParameters):
     mu_c_min: float = parameter(0.0, '',
         'least friction between finger and object that is possible', 0.0, read_only=True)
     mu_c_max: float = parameter(math.inf, '',
-        'largest friction between finger and object that is possible, .inf too',
+        'largest friction between finger and object that is possible; may be .inf',
         0.0, read_only=True)
     noise: float = parameter(0.0035, 'rad',
         'standard deviation of the readings of theta', 1e-5, 0.5, read_only=True)

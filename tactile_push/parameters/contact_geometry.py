@@ -38,9 +38,9 @@ class ContactGeometryParameters(NodeParameters):
         'largest angle between the pole and a contact that the sensor detects properly; pi/2 is '
         'the whole hemisphere', 0.01, 1.6)
     max_theta_rate: float = parameter(MAX_THETA_RATE, 'rad/s',
-        'how fast theta can turn; it grows with the speed of the belt', 0.01, 1000.0)
+        'fastest turn of theta that is believed; it grows with the speed of the belt', 0.01, 1000.0)
     jump_tolerance: float = parameter(JUMP_TOLERANCE, 'rad',
-        'how far two readings of the same theta may differ; pi refuses no jump', 0.001, 3.2)
+        'how far two readings of the same theta may differ; pi believes every jump', 0.001, 3.2)
     # fmt: on
 
 

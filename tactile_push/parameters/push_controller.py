@@ -28,14 +28,14 @@ class PushControllerParameters(NodeParameters):
         'largest push angle', 1.58, 3.04, read_only=True)
     belt_speed: float = shared.belt_speed
     control_rate: float = parameter(paper.CONTROL_RATE, 'Hz',
-        'rate of the law', 0.1, 200.0, read_only=True)
+        'control periods a second', 0.1, 200.0, read_only=True)
     contact_timeout: float = parameter(LIMITS.contact_timeout, 's',
         'the finger stops after this long without a contact', 0.01, 10.0)
     max_ticks_lost: int = parameter(LIMITS.max_ticks_lost, '',
-        'the finger stops after more control periods in a row without a tick', 0, 100)
-    max_speed: float = parameter(LIMITS.max_speed, 'm/s', 'bound on the velocity', 1e-4, 1.0)
+        'the finger stops when more control periods in a row pass without a tick', 0, 100)
+    max_speed: float = parameter(LIMITS.max_speed, 'm/s', 'largest velocity', 1e-4, 1.0)
     max_acceleration: float = parameter(LIMITS.max_acceleration, 'm/s^2',
-        'bound on the change of the velocity, except to stop', 1e-3, 100.0)
+        'largest change of the velocity, except to stop', 1e-3, 100.0)
     workspace_min: float = parameter(LIMITS.workspace_min, 'm',
         'where the finger stops moving left, x of its disk in finger_base',
         -10.0, 10.0, read_only=True)

@@ -37,7 +37,7 @@ class SimPlantParameters(NodeParameters):
         'm_max / f_max of the support of the object; 0 for a uniform support',
         0.0, 1.0, read_only=True)
     mu_c: float = parameter(math.inf, '',
-        'friction between finger and object, .inf too', 0.0, read_only=True)
+        'friction between finger and object; may be .inf', 0.0, read_only=True)
     theta_initial: float = parameter(paper.THETA_INITIAL, 'rad',
         'angle of the edge at the start', -1.5, 1.5, read_only=True)
     d_initial: float = parameter(paper.D_INITIAL, 'm',
@@ -51,22 +51,22 @@ class SimPlantParameters(NodeParameters):
     command_timeout: float = parameter(0.5, 's',
         'the finger stops after this long without a command', 0.01, 10.0, read_only=True)
     publish_clock: bool = parameter(False, '',
-        'own the time: publish /clock and let it wait for contacts and commands', read_only=True)
+        'publish /clock, and let its time wait for contacts and commands', read_only=True)
     real_time_factor: float = parameter(1.0, 's/s',
-        'how fast the time passes at the most; other than 1 only with publish_clock',
+        'largest speed of the time; other than 1 only with publish_clock',
         0.01, 100.0, read_only=True)
     control_rate: float = parameter(paper.CONTROL_RATE, 'Hz',
-        'commands a second that the published time waits for', 0.1, 200.0, read_only=True)
+        'commands a second for which the published time waits', 0.1, 200.0, read_only=True)
     max_speed: float = parameter(0.1, 'm/s',
         'the finger goes no faster, whatever the command', 1e-4, 10.0)
     servo_time_constant: float = parameter(0.0, 's',
-        'of the first-order lag with which the finger follows its command', 0.0, 10.0)
+        'time constant of the lag with which the finger follows its command', 0.0, 10.0)
     servo_delay: float = parameter(0.0, 's',
         'time between a command and its first effect', 0.0, 10.0)
     servo_velocity_quantum: float = parameter(0.0, 'm/s',
-        'velocities are whole multiples of it', 0.0, 1.0)
-    workspace_min: float = parameter(-math.inf, 'm', 'the finger stops there, x in finger_base')
-    workspace_max: float = parameter(math.inf, 'm', 'the finger stops there, x in finger_base')
+        'the velocity of the finger is a whole multiple of this', 0.0, 1.0)
+    workspace_min: float = parameter(-math.inf, 'm', 'least x of the finger in finger_base')
+    workspace_max: float = parameter(math.inf, 'm', 'greatest x of the finger in finger_base')
     belt_ripple: float = parameter(0.0, '',
         "amplitude of the belt's uneven speed, relative to the speed", 0.0, 0.99)
     belt_ripple_frequency: float = parameter(1.0, 'Hz', 'frequency of belt_ripple', 0.01, 100.0)
@@ -78,9 +78,9 @@ class SimPlantParameters(NodeParameters):
     sensor_noise: float = parameter(0.0, 'rad',
         "standard deviation of the noise of the contact's angle", 0.0, 1.6)
     sensor_bias: float = parameter(0.0, 'rad', "constant error of the contact's angle", -1.6, 1.6)
-    sensor_quantum: float = parameter(0.0, 'rad', 'the angle is a whole multiple of it', 0.0, 1.6)
+    sensor_quantum: float = parameter(0.0, 'rad', 'the angle is a whole multiple of this', 0.0, 1.6)
     sensor_latency: float = parameter(0.0, 's',
-        'readings come out so much later, with the first reading after it', 0.0, 10.0)
+        'a reading comes out with the first one that is taken so much later', 0.0, 10.0)
     sensor_dropout: float = parameter(0.0, '', 'probability that a reading is lost', 0.0, 1.0)
     sensor_outlier: float = parameter(0.0, '',
         'probability that a reading is anywhere on the hemisphere', 0.0, 1.0)

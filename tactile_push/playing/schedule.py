@@ -41,7 +41,7 @@ def part_of(
     BagError if the bag has no such topic, no message there or, for a loop, no length.
     """
     if not any(bag.counts.values()):
-        raise BagError(f'{bag.path}: the bag is empty')
+        raise BagError(f'{bag.path}: expected messages, got none')
     begin = bag.start_time + round(start * 1e9)
     if begin > bag.end_time:
         length = (bag.end_time - bag.start_time) * 1e-9

@@ -202,7 +202,7 @@ def rollouts(
         raise ValueError(f'band: expected an angle of 0 or more [rad], got {band}')
     sliders = [slider] if isinstance(slider, Slider) else list(slider)
     if not sliders:
-        raise ValueError('slider: expected at least one')
+        raise ValueError('slider: expected one or more, got none')
     gains = {'kp': kp, 'kd': kd, 'theta_desired': theta_desired}
     numbers = {'theta': theta, 'd': d, 'phi': phi, **gains, 'phi_min': phi_min, 'phi_max': phi_max}
     arrays = {name: np.asarray(value, dtype=float) for name, value in numbers.items()}

@@ -76,20 +76,23 @@ def test_a_play_that_goes_on_takes_no_step(bench):
 @pytest.mark.parametrize(
     ('parameters', 'refusal'),
     [
-        ({'bag': ''}, 'parameter bag: expected the folder of a bag'),
+        ({'bag': ''}, "parameter bag: expected the folder of a bag, got ''"),
         ({'bag': BAG.parent / 'no'}, str(BAG.parent / 'no')),
         ({'topics': ['no/such']}, str(BAG)),
         ({'rate': 0.0}, 'parameter rate: expected'),
         ({'remap': ['finger/cmd_vel']}, 'parameter remap: expected OLD:=NEW, got'),
-        ({'remap': ['contact:=other']}, 'parameter remap: /contact is not played'),
+        (
+            {'remap': ['contact:=other']},
+            'parameter remap: expected a topic that is played, got /contact',
+        ),
         ({'remap': ['finger/cmd_vel:=no name']}, 'parameter remap: expected the name of a topic'),
         (
             {'topics': ['contact', 'finger/cmd_vel'], 'remap': ['contact:=finger/cmd_vel']},
-            'parameter remap: 2 topics would become /finger/cmd_vel',
+            'parameter remap: expected different names, got /finger/cmd_vel for 2 topics',
         ),
         (
             {'clock': 10.0, 'remap': ['finger/cmd_vel:=/clock']},
-            'parameter remap: 2 topics would become /clock',
+            'parameter remap: expected different names, got /clock for 2 topics',
         ),
     ],
 )

@@ -75,7 +75,7 @@ def test_steps_are_told_and_the_last_one_ends_the_experiment(bench, tmp_path, ca
 
 
 def test_a_bag_without_a_name_is_refused(bench):
-    with pytest.raises(ConfigurationError, match='parameter bag: expected a folder'):
+    with pytest.raises(ConfigurationError, match="parameter bag: expected a new folder, got ''"):
         bench.start(Experiment)
 
 

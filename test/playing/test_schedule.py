@@ -93,7 +93,7 @@ def test_what_cannot_be_played_is_refused_in_one_line_with_the_bag(bag, choice, 
 
 
 def test_empty_bag_is_refused(tmp_path):
-    with pytest.raises(BagError, match='bag: the bag is empty'):
+    with pytest.raises(BagError, match='bag: expected messages, got none'):
         part_of(write(tmp_path / 'bag', []))
 
 

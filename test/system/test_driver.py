@@ -209,7 +209,7 @@ def test_device_that_goes_and_comes_back_is_said_once_each_time(
         driver.wait_for(
             lambda reports=reports: len(driver.diagnostics) > reports + 2, 'more attempts'
         )
-        assert driver.log.count('; trying on') == opened
+        assert driver.log.count('; trying again') == opened
         assert driver.log.count(f'reading {path}') == opened - 1
         near, far = os.openpty()
         tty.setraw(far)
@@ -235,11 +235,11 @@ def test_peer_that_hangs_up_at_once_is_said_once_however_often_it_does(driver: D
         driver.accept()
         driver.hang_up()
     driver.wait_for(lambda: driver.counted('connections') >= 5, 'it to be counted')
-    assert driver.log.count('; trying on') == 1
+    assert driver.log.count('; trying again') == 1
     assert 'reading socket' not in driver.log
     driver.connect()
     driver.wait_for(lambda: 'reading socket' in driver.log, 'the sensor to be back')
-    assert driver.log.count('; trying on') == 1
+    assert driver.log.count('; trying again') == 1
 
 
 def test_bytes_without_sentences_are_taken_for_a_wrong_baud_rate(driver: Driver):
@@ -448,7 +448,7 @@ def test_peer_of_rfc_2217_that_speaks_no_telnet_ends_nothing(driver: Driver):
     driver.start(scheme='rfc2217')
     driver.accept()
     driver.send(b'\xff\xf0')  # the end of a subnegotiation that nobody began
-    driver.wait_for(lambda: '; trying on' in driver.log, 'the driver to give up for now')
+    driver.wait_for(lambda: '; trying again' in driver.log, 'the driver to give up for now')
     assert driver.process.poll() is None
     driver.accept()
 
