@@ -55,7 +55,14 @@ def _turn_and_slip(
 
 @equation
 def push_rates(
-    turn: float, sigma: float, piece: int, v_x: float, v_y: float, body: Body, finger: Finger
+    turn: float,
+    sigma: float,
+    piece: int,
+    v_x: float,
+    v_y: float,
+    body: Body,
+    finger: Finger,
+    spin: float = 0.0,
 ) -> tuple[float, float, int]:
     """Compute the rates of the object's angle and of the contact during a push.
 
@@ -68,32 +75,43 @@ def push_rates(
     piece : int
         Piece of the path where it probably lies.
     v_x, v_y : float
-        Velocity of the finger relative to the support [m/s], in the axes that the object's frame
-        had at the start of the push.
+        Velocity of the disk's centre relative to the support [m/s], in the axes that the object's
+        frame had at the start of the push.
     body : Body
         The object.
     finger : Finger
         The finger.
+    spin : float, optional
+        Angular velocity of the disk [rad/s], with which the finger's surface passes the contact:
+        its material there has the velocity v - r spin t. The paper's disk keeps its orientation.
 
     Returns
     -------
     omega : float
         Angular velocity of the object [rad/s].
     sigma_dot : float
-        Velocity of the disk's centre along its path [m/s], eq. (16).
+        Velocity of the disk's centre along its path [m/s], eq. (16); the disk rolls by its own
+        turning too.
     mode : int
         `FREE`, `STICK`, `SLIP_LEFT` or `SLIP_RIGHT`.
     """
     t_x, t_y, d, l = contact(sigma, piece, body.path, finger.r)
     v_x, v_y = rotated(v_x, v_y, -turn)
-    v_px, v_py = t_x * v_x + t_y * v_y, t_x * v_y - t_y * v_x
+    v_px, v_py = t_x * v_x + t_y * v_y - finger.r * spin, t_x * v_y - t_y * v_x
     omega, v_slip, mode = _turn_and_slip(v_px, v_py, t_x, t_y, d, l, body.c, body.support, finger)
-    return omega, v_slip - omega * finger.r, mode  # (16)
+    return omega, v_slip - (omega - spin) * finger.r, mode  # (16)
 
 
 @compiled
 def push_body(
-    angle: float, sigma: float, v_x: float, v_y: float, duration: float, body: Body, finger: Finger
+    angle: float,
+    sigma: float,
+    v_x: float,
+    v_y: float,
+    duration: float,
+    body: Body,
+    finger: Finger,
+    spin: float = 0.0,
 ) -> tuple[float, float, float, int]:
     """Push an object that the finger touches, straight on for a while, as `push` does."""
     path = body.path
@@ -101,20 +119,20 @@ def push_body(
     piece = piece_at(sigma, path)
     scale = 2.0 * math.pi / path[-1, SIGMA]
     turn, elapsed, step = 0.0, 0.0, duration
-    omega_1, rate_1, mode = push_rates(turn, sigma, piece, v_x, v_y, body, finger)
+    omega_1, rate_1, mode = push_rates(turn, sigma, piece, v_x, v_y, body, finger, spin)
     while elapsed < duration and mode != FREE:
         last = elapsed + step >= duration
         if last:
             step = duration - elapsed
         turn_2, sigma_2 = turn + step / 2.0 * omega_1, sigma + step / 2.0 * rate_1
-        omega_2, rate_2, mode_2 = push_rates(turn_2, sigma_2, piece, v_x, v_y, body, finger)
+        omega_2, rate_2, mode_2 = push_rates(turn_2, sigma_2, piece, v_x, v_y, body, finger, spin)
         turn_3, sigma_3 = turn + step / 2.0 * omega_2, sigma + step / 2.0 * rate_2
-        omega_3, rate_3, mode_3 = push_rates(turn_3, sigma_3, piece, v_x, v_y, body, finger)
+        omega_3, rate_3, mode_3 = push_rates(turn_3, sigma_3, piece, v_x, v_y, body, finger, spin)
         turn_4, sigma_4 = turn + step * omega_3, sigma + step * rate_3
-        omega_4, rate_4, mode_4 = push_rates(turn_4, sigma_4, piece, v_x, v_y, body, finger)
+        omega_4, rate_4, mode_4 = push_rates(turn_4, sigma_4, piece, v_x, v_y, body, finger, spin)
         turn_5 = turn + step / 6.0 * (omega_1 + 2.0 * omega_2 + 2.0 * omega_3 + omega_4)
         sigma_5 = sigma + step / 6.0 * (rate_1 + 2.0 * rate_2 + 2.0 * rate_3 + rate_4)
-        omega_5, rate_5, mode_5 = push_rates(turn_5, sigma_5, piece, v_x, v_y, body, finger)
+        omega_5, rate_5, mode_5 = push_rates(turn_5, sigma_5, piece, v_x, v_y, body, finger, spin)
         # The solution with omega_5 in the place of omega_4 is of order 3.
         error = step / 6.0 * max(abs(omega_5 - omega_4), abs(rate_5 - rate_4) * scale)
         # One of order 2 sees kinks anywhere in the step, and is strict where there is one.
@@ -158,6 +176,7 @@ def push(
     cos_alpha: float,
     sin_alpha: float,
     r: float,
+    spin: float = 0.0,
 ) -> tuple[float, float, float, int]:
     """Push an object that the finger touches, straight on for a while.
 
@@ -171,7 +190,7 @@ def push(
     sigma : float
         Position of the disk's centre along its path around the object at the start [m].
     v_x, v_y : float
-        Velocity of the finger relative to the support [m/s].
+        Velocity of the disk's centre relative to the support [m/s].
     duration : float
         Duration of the push [s].
     path : ndarray, shape (M + 1, 8)
@@ -184,6 +203,8 @@ def push(
         The friction cone, see `friction_cone`.
     r : float
         Radius of the finger's disk [m].
+    spin : float, optional
+        Angular velocity of the finger's disk [rad/s]; the paper's disk keeps its orientation.
 
     Returns
     -------
@@ -201,7 +222,7 @@ def push(
     tactile feedback", IROS 1992, Section II.C and eq. (16).
     """
     body, finger = Body(path, c, support), Finger(cos_alpha, sin_alpha, r)
-    return push_body(angle, sigma, v_x, v_y, duration, body, finger)
+    return push_body(angle, sigma, v_x, v_y, duration, body, finger, spin)
 
 
 @compiled
@@ -247,6 +268,7 @@ def move_finger(
     duration: float,
     body: Body,
     finger: Finger,
+    spin: float = 0.0,
 ) -> tuple[Pose, float, bool, int]:
     """Move the finger straight on, whether it touches the object from the start, later or never.
 
@@ -261,13 +283,15 @@ def move_finger(
     x_f, y_f : float
         Centre of the finger's disk at the start [m].
     v_x, v_y : float
-        Velocity of the finger relative to the support [m/s].
+        Velocity of the disk's centre relative to the support [m/s].
     duration : float
         Duration of the motion [s].
     body : Body
         The object.
     finger : Finger
         The finger.
+    spin : float, optional
+        Angular velocity of the finger's disk [rad/s].
 
     Returns
     -------
@@ -288,7 +312,9 @@ def move_finger(
         sigma += around * math.floor((near - sigma) / around + 0.5)
         x_f, y_f, duration = x_f + v_x * elapsed, y_f + v_y * elapsed, duration - elapsed
     if touching:
-        angle, sigma, elapsed, mode = push_body(pose.angle, sigma, v_x, v_y, duration, body, finger)
+        angle, sigma, elapsed, mode = push_body(
+            pose.angle, sigma, v_x, v_y, duration, body, finger, spin
+        )
         x_f, y_f, duration = x_f + v_x * elapsed, y_f + v_y * elapsed, duration - elapsed
         if elapsed > 0.0:
             _, _, d, l = contact(sigma, piece_at(sigma, path), path, r)

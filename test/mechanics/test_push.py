@@ -1285,3 +1285,97 @@ def test_a_finger_comes_along_an_edge_and_pushes_its_next_one():
     assert y == pytest.approx(0.03725, rel=1e-14)
     assert state[:3] == pytest.approx((x - 0.05 + gap, y, 0.0), rel=0, abs=1e-9)
     assert state[4:] == (True, STICK)
+
+
+def moved_turning(outline, state, velocity, duration, mu_c, spin, c=BLOCK_C, support=None):
+    body = Body(outline.path(FINGER), c, support)
+    pose, *rest = move_finger(
+        Pose(*state[:3]), *state[3:5], 0.0, 0.0, *velocity, duration, body,
+        Finger(*friction_cone(mu_c), FINGER), spin,
+    )  # fmt: skip
+    return (*pose, *rest)
+
+
+@pytest.mark.parametrize('spin', [-13.0, 4.0, 40.0])  # [rad] a metre of the finger's way
+@pytest.mark.parametrize(
+    ('outline', 'nearest', 'sigma', 'beta', 'mu_c'),
+    [
+        (BLOCK, nearest_on_polygon(CORNERS), 0.018, 1.4, math.inf),
+        (BLOCK, nearest_on_polygon(CORNERS), 0.035, 2.0, math.inf),
+        (BLOCK, nearest_on_polygon(CORNERS), 0.06, 1.5, math.inf),  # a corner
+        (BLOCK, nearest_on_polygon(CORNERS), 0.018, 1.6, 0.3),
+        (BLOCK, nearest_on_polygon(CORNERS), 0.03, 1.2, 0.8),
+        (DISK, nearest_on_circle(0.0285), 0.01, 1.3, math.inf),
+        (DISK, nearest_on_circle(0.0285), 0.01, 2.1, 0.2),
+    ],
+)
+def test_a_turning_disk_pushes_as_simulated_in_the_plane(outline, nearest, sigma, beta, mu_c, spin):
+    pose = (*at_contact(outline, sigma, 0.4), 0.4)
+    velocity = heading(outline, sigma, beta, 0.4)
+
+    state = moved_turning(outline, (*pose, sigma, True), velocity, 0.01, mu_c, spin)
+
+    def twist(v_p, x_c, normal, _):
+        # The finger's material at the contact, at r n from the disk's centre: v + spin z x r n.
+        (v_x, v_y), (n_x, n_y) = v_p, normal
+        v_p = v_x - spin * FINGER * n_y, v_y + spin * FINGER * n_x
+        return twist_by_the_paper(v_p, x_c, normal, mu_c, BLOCK_C)
+
+    expected, left = simulated(nearest, pose, velocity, 0.01, twist, 600)
+    assert not left
+    assert state[2] == pytest.approx(expected[2], rel=0, abs=ANGLE)
+    assert state[:2] == pytest.approx(expected[:2], rel=0, abs=PLACE)
+
+
+@checked
+@given(st.floats(0.01, 0.04), st.floats(0.8, 2.3), st.floats(-40.0, 40.0), ratios)
+def test_disk_that_turns_rolls_on_a_sticking_edge(sigma, beta, spin, c):
+    # Both surfaces pass the same length: d changes by -r (theta - psi).
+    start = (*at_contact(BLOCK, sigma), 0.0, sigma, True)
+
+    state = moved_turning(BLOCK, start, heading(BLOCK, sigma, beta), 0.01, math.inf, spin, c)
+
+    if state[5] == STICK and 0.0 < state[3] < 0.05:
+        assert state[3] - sigma == pytest.approx(-FINGER * (state[2] - spin * 0.01), abs=1e-12)
+
+
+@pytest.mark.parametrize('support', [None, 'corners'])
+def test_disk_that_turns_one_way_mirrors_the_disk_that_turns_the_other_way(support):
+    points = np.ascontiguousarray(np.vstack([CORNERS.T, np.ones(4)])) if support else None
+    ends = []
+    for side in (1.0, -1.0):
+        sigma = 0.025 + side * 0.006
+        start = (*at_contact(BLOCK, sigma), 0.0, sigma, True)
+        velocity = side * 0.3, 1.0
+        x, y, *end = moved_turning(BLOCK, start, velocity, 0.02, 0.4, side * 20.0, support=points)
+        ends.append((side * x, y, side * end[0], side * (end[1] - 0.025)))
+    assert ends[0] == pytest.approx(ends[1], rel=0, abs=1e-8)
+    assert ends[0][2] != 0.0
+
+
+def test_disk_that_turns_with_the_object_keeps_the_contact_where_it_is():
+    # As if it were glued on: omega is the spin, found here as the fixed point of the rates.
+    path = BLOCK.path(FINGER)
+    body, finger = Body(path, BLOCK_C, None), Finger(*friction_cone(math.inf), FINGER)
+    spin = 0.0
+    for _ in range(60):
+        spin, _, _ = push_rates(0.0, 0.035, 0, 0.2, 1.0, body, finger, spin)
+    omega, sigma_dot, mode = push_rates(0.0, 0.035, 0, 0.2, 1.0, body, finger, spin)
+    assert mode == STICK
+    assert omega == pytest.approx(spin, rel=1e-12)
+    assert sigma_dot == pytest.approx(0.0, abs=1e-13)
+    # Its material moves as the object's does there: v_P of (8), with the disk's centre at r n.
+    v_x, v_y, _ = twist_by_the_paper(
+        (0.2 - FINGER * spin, 1.0), (0.01, -0.02375), (0.0, 1.0), math.inf, BLOCK_C
+    )
+    assert 0.2 - FINGER * spin == pytest.approx(v_x + omega * 0.02375, rel=1e-12)
+    assert v_y + omega * 0.01 == pytest.approx(1.0, rel=1e-12)
+
+
+def test_surface_that_passes_decides_on_which_side_the_contact_slips():
+    # Straight ahead through the centre of mass: without friction enough, the object follows the
+    # surface of the disk, which passes to the left when the disk turns counterclockwise.
+    path = BLOCK.path(FINGER)
+    body, finger = Body(path, BLOCK_C, None), Finger(*friction_cone(0.1), FINGER)
+    modes = [push_rates(0.0, 0.025, 0, 0.0, 1.0, body, finger, s)[2] for s in (40.0, 0.0, -40.0)]
+    assert modes == [SLIP_LEFT, STICK, SLIP_RIGHT]
