@@ -18,7 +18,7 @@ import yaml
 _NEVER = 2**63 - 1
 
 
-class _PlainDumper(getattr(yaml, 'CSafeDumper', yaml.SafeDumper)):  # type: ignore[misc]
+class _Plain:
     """Write equal parts out in full, where YAML would refer from one to the other."""
 
     def ignore_aliases(self, data: Any) -> bool:
@@ -26,9 +26,21 @@ class _PlainDumper(getattr(yaml, 'CSafeDumper', yaml.SafeDumper)):  # type: igno
         return True
 
 
+class _PlainDumper(_Plain, yaml.SafeDumper):
+    pass
+
+
+class _FastDumper(_Plain, getattr(yaml, 'CSafeDumper', yaml.SafeDumper)):  # type: ignore[misc]
+    pass
+
+
 def to_yaml(value: object) -> str:
     """Write lists and dictionaries of plain values as YAML, in block style without references."""
-    return yaml.dump(value, Dumper=_PlainDumper, sort_keys=False, default_flow_style=False)
+    style = {'sort_keys': False, 'default_flow_style': False}
+    try:
+        return yaml.dump(value, Dumper=_FastDumper, **style)
+    except UnicodeEncodeError:  # libyaml cannot write the name of a folder that is no text
+        return yaml.dump(value, Dumper=_PlainDumper, **style)
 
 
 @dataclass
