@@ -19,6 +19,9 @@ GRAPH := test/faults test/fuzzing test/nodes test/playing test/recording test/so
 # for them, so each process begins with a half of the files.
 PYTEST := $(BIN)/python -m pytest --numprocesses 2 --dist worksteal
 
+# Without bytecode each of the hundreds of processes that tests start would compile what it imports.
+unexport PYTHONDONTWRITEBYTECODE
+
 .PHONY: demo test test-quick docs lint bench faults fuzz soak clean
 
 demo: $(READY)
