@@ -63,26 +63,11 @@ class BagReader:
 
     Parameters
     ----------
-    path : str or path
+    path : str or os.PathLike
         Folder of the bag, or one of its files.
     warn : callable, optional
         Gets one line for each problem that does not keep the bag from being read; by default the
         lines are logged.
-
-    Attributes
-    ----------
-    path : Path
-        Where the bag is.
-    files : list of Path
-        Its files, in their order.
-    topics : dict of str to Topic
-        By name.
-    counts : dict of str to int
-        Messages by topic, with those of damaged chunks that nobody has read yet.
-    start_time, end_time : int
-        First and last log time [ns]; both 0 in an empty bag.
-    notes : dict of str to str
-        Custom data of the bag.
 
     Raises
     ------
@@ -93,10 +78,11 @@ class BagReader:
     def __init__(
         self, path: str | os.PathLike[str], warn: Callable[[str], None] = _LOGGER.warning
     ) -> None:
-        self.path = Path(path)
-        self.topics: dict[str, Topic] = {}
+        self.path = Path(path)  #: where the bag is
+        self.topics: dict[str, Topic] = {}  #: by name
+        #: messages by topic, with those of damaged chunks that nobody has read yet
         self.counts: dict[str, int] = {}
-        self.notes: dict[str, str] = {}
+        self.notes: dict[str, str] = {}  #: custom data of the bag
         self._warn = warn
         self._sources: dict[str, tuple[Channel, Schema | None]] = {}
         self._decoders: dict[str, Callable[[bytes], Any]] = {}
@@ -107,9 +93,10 @@ class BagReader:
         except OSError as error:
             raise BagError(f'{self.path}: {error.strerror or error}') from None
         self._files = self._open_files(files)
-        self.files = [file.path for file in self._files]
+        self.files = [file.path for file in self._files]  #: in their order
         self._topic_names = [self._take_topics(file) for file in self._files]
         filled = [file.contents for file in self._files if file.contents.counts]
+        #: first log time [ns], as `end_time` is the last one; both are 0 in an empty bag
         self.start_time = min((contents.start for contents in filled), default=0)
         self.end_time = max((contents.end for contents in filled), default=0)
         self._compressed = [self._take_notes(file, metadata) for file in self._files]

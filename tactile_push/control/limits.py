@@ -42,12 +42,8 @@ class Limits:
 
         Parameters
         ----------
-        wanted : float
-            What the law asks for [m/s].
-        before : float
-            Last command [m/s].
-        period : float
-            Control period [s].
+        wanted, before, period : float
+            What the law asks for, the last command [m/s], and the control period [s].
 
         Returns
         -------
@@ -63,10 +59,8 @@ class Limits:
 
         Parameters
         ----------
-        wanted : float
-            Velocity across the belt [m/s].
-        x : float
-            Where the finger is [m]; NaN where that is not known.
+        wanted, x : float
+            Velocity across the belt [m/s], and where the finger is [m]; NaN if unknown.
 
         Returns
         -------

@@ -13,10 +13,8 @@ def settle_step(theta: npt.ArrayLike, theta_desired: float, band: float) -> int 
     ----------
     theta : array_like, shape (K + 1,)
         Angle of the pushed edge [rad].
-    theta_desired : float
-        Desired angle [rad].
-    band : float
-        How near [rad].
+    theta_desired, band : float
+        Desired angle, and how near to it counts [rad].
 
     Returns
     -------

@@ -65,10 +65,8 @@ class Geometry:
 
         Parameters
         ----------
-        stamp : tuple of int
-            When the joints were read [s, ns].
-        names, positions : sequence of str, sequence of float
-            Joint names and their angles [rad].
+        stamp, names, positions : tuple of int, sequence of str, sequence of float
+            When the joints were read [s, ns], their names and their angles [rad].
 
         Returns
         -------

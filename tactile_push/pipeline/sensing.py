@@ -61,10 +61,8 @@ class Sensing:
 
         Parameters
         ----------
-        stamp : tuple of int
-            When the control period began [s, ns].
-        names, positions : sequence of str, sequence of float
-            Names and their values.
+        stamp, names, positions : tuple of int, sequence of str, sequence of float
+            When the control period began [s, ns], names and their values.
 
         Returns
         -------

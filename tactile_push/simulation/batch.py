@@ -169,12 +169,9 @@ def rollouts(
         Bounds of the push angle [rad], in (0, pi).
     steps : int
         Number of control periods.
-    period : float, optional
-        Control period [s].
-    belt_speed : float, optional
-        Speed of the belt, v_y [m/s].
-    radius : float, optional
-        Effective radius of the finger's disk [m].
+    period, belt_speed, radius : float, optional
+        Control period [s], speed of the belt, v_y [m/s], and effective radius of the finger's disk
+        [m].
     servo : Servo or sequence of Servo, length 1 or B, optional
         How the finger follows its command, at rest in the beginning; perfectly by default.
     band : float, optional

@@ -35,10 +35,8 @@ class Belt:
 
         Parameters
         ----------
-        nominal : float
-            Speed without a fault, v_y [m/s].
-        time : float
-            Time [s].
+        nominal, time : float
+            Speed without a fault, v_y [m/s], and time [s].
 
         Returns
         -------
@@ -54,12 +52,8 @@ class Belt:
 
         Parameters
         ----------
-        nominal : float
-            Speed without a fault, v_y [m/s].
-        time : float
-            When it begins [s].
-        duration : float
-            How long it is [s].
+        nominal, time, duration : float
+            Speed without a fault, v_y [m/s], when the while begins and how long it is [s].
 
         Returns
         -------

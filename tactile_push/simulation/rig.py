@@ -134,34 +134,8 @@ class Rig:
     config : RigConfig
         What the rig is made of and where it starts.
     faults : Faults, optional
-        How far it is from a perfect one; its sensor is left to whoever reads.
-
-    Attributes
-    ----------
-    faults : Faults
-        As above; may be replaced at any time.
-    time : float
-        How long it has been in motion [s].
-    v_x : float
-        The finger's velocity across the belt at the end of the last step [m/s].
-    v_y : float
-        The belt's speed at the end of the last step [m/s].
-    finger_x, finger_y : float
-        Centre of the finger's disk on the belt, from where it started [m]; the belt carries
-        everything on it in -y, so on the belt the finger moves at +v_y.
-    object_pose : Pose
-        Centre of mass and orientation of the object on the belt.
-    touching : bool
-        Whether finger and object touch.
-    sigma : float
-        Position of the disk's centre along its path around the object [m], where it touches or is
-        nearest.
-    mode : int
-        How the contact moved at the end of the last step: an index of `MODES`.
-    phi : float
-        Direction of the finger's motion on the belt in the last step [rad].
-    at_workspace_limit : bool
-        Whether the finger could not follow its velocity in the last step.
+        How far it is from a perfect one; its sensor is left to whoever reads. They may be replaced
+        at any time.
     """
 
     def __init__(self, config: RigConfig, faults: Faults = NO_FAULTS) -> None:
@@ -171,19 +145,20 @@ class Rig:
         # The knuckle points across the belt, the pole along it.
         self._home = config.finger.forward(math.pi - config.finger.mount_angle, -math.pi / 2.0)
         self._commands = DelayLine()
-        self.time = 0.0
-        self.v_x = 0.0
-        self.v_y = 0.0
-        self.finger_x = 0.0
-        self.finger_y = 0.0
-        self.touching = True
-        self.sigma = config.sigma
-        self.mode = FREE
-        self.phi = math.pi / 2.0
-        self.at_workspace_limit = False
+        self.time = 0.0  #: how long it has been in motion [s]
+        self.v_x = 0.0  #: the finger's velocity across the belt at the end of the last step [m/s]
+        self.v_y = 0.0  #: the belt's speed at the end of the last step [m/s]
+        self.finger_x = 0.0  #: centre of the finger's disk on the belt, from its start [m]
+        self.finger_y = 0.0  #: the same along the belt, where the finger moves at +v_y [m]
+        self.touching = True  #: whether finger and object touch
+        self.sigma = config.sigma  #: position of the disk along its path around the object [m]
+        self.mode = FREE  #: how the contact moved at the end of the last step, an index of `MODES`
+        self.phi = math.pi / 2.0  #: direction of the finger on the belt in the last step [rad]
+        self.at_workspace_limit = False  #: whether the finger could not follow its velocity
         angle = config.theta - tangent_angle(self.sigma, self._body.path)
         d, l = self._contact
         x, y = reach(config.theta, d, l, config.radius)
+        #: centre of mass and orientation of the object on the belt
         self.object_pose = Pose(-x, -y, angle)
 
     @property

@@ -70,15 +70,10 @@ class Readout:
         How the sensor errs.
     seed : int
         Seed of the random numbers, 0 or more.
-
-    Attributes
-    ----------
-    sensor : Sensor
-        As above; may be replaced at any time.
     """
 
     def __init__(self, sensor: Sensor, seed: int) -> None:
-        self.sensor = sensor
+        self.sensor = sensor  #: may be replaced at any time
         streams = np.random.SeedSequence(seed).spawn(4)
         self._noise, self._lost, self._wrong, self._place = map(np.random.default_rng, streams)
         self._last: Reading | None = None

@@ -63,12 +63,9 @@ class Workspace:
 
         Parameters
         ----------
-        x : float
-            Where it is [m]; beyond a bound it may still go back.
-        v_x : float
-            Its velocity [m/s].
-        duration : float
-            How long it moves [s].
+        x, v_x, duration : float
+            Where it is [m], its velocity [m/s] and how long it moves [s]; from beyond a bound it
+            may go back.
 
         Returns
         -------

@@ -34,10 +34,9 @@ class UnevenFriction:
 
         Parameters
         ----------
-        mean : float
-            The mean coefficient of friction, 0 to infinity.
-        sigma : float
-            Position along the path of the finger's disk around the object [m].
+        mean, sigma : float
+            The mean coefficient of friction, 0 to infinity, and the position along the path of the
+            finger's disk around the object [m].
 
         Returns
         -------

@@ -58,19 +58,6 @@ class ContactFinder:
         does not turn: its direction is the mount angle.
     mount_angle : float, optional
         Angle of the finger tip's pole in `finger_base` at joint angles zero [rad].
-
-    Attributes
-    ----------
-    radius, max_out_of_plane, detectable_range, mount_angle : float
-        As given; may be changed between readings.
-    jumps : JumpGuard
-        Refuses jumps; its bounds `max_rate` and `tolerance` may be changed.
-    pole : PoleHistory or None
-        The finger tip's direction in the past; its `timeout` may be changed. None if it does not
-        turn.
-    joint_angle : float
-        By how far the joints had turned the tip at the moment of the last reading [rad]; NaN if
-        unknown or not needed.
     """
 
     def __init__(
@@ -83,12 +70,16 @@ class ContactFinder:
         joint_state_timeout: float | None = None,
         mount_angle: float = math.pi / 2.0,
     ) -> None:
+        # These four may be changed between readings.
         self.radius = radius
         self.max_out_of_plane = max_out_of_plane
         self.detectable_range = detectable_range
         self.mount_angle = mount_angle
+        #: refuses jumps; `max_rate` and `tolerance` may be changed
         self.jumps = JumpGuard(max_theta_rate, jump_tolerance)
+        #: where the tip pointed in the past; `timeout` may be changed; None if it does not turn
         self.pole = None if joint_state_timeout is None else PoleHistory(joint_state_timeout)
+        #: how far the joints had turned the tip at the last reading [rad]; NaN if unknown
         self.joint_angle = math.nan
         self._newest = -math.inf
         self._newest_late = -math.inf

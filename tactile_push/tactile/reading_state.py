@@ -15,10 +15,9 @@ def reading_values(
     ----------
     reading : Reading
         The sensor's angles [rad].
-    joint_angle : float
-        By how far the joints had turned the finger tip at its moment [rad]; NaN if not known.
-    theta : float
-        Angle of the pushed edge [rad]; NaN if the reading was refused.
+    joint_angle, theta : float
+        By how far the joints had turned the finger tip at its moment, NaN if unknown, and angle of
+        the pushed edge, NaN if the reading was refused [rad].
     refusal : str
         Why it was refused, one of `REFUSALS`.
 
