@@ -63,7 +63,7 @@ class BagReader:
 
     Parameters
     ----------
-    path : str or os.PathLike
+    path : str or Path
         Folder of the bag, or one of its files.
     warn : callable, optional
         Gets one line for each problem that does not keep the bag from being read; by default the

@@ -50,7 +50,7 @@ class BagWriter:
 
     Parameters
     ----------
-    directory : str or path
+    directory : str or Path
         Directory of the bag, made here with its parents. The MCAP files in it get its name.
     compression : {'zstd', 'lz4', 'none'}, optional
         How chunks are compressed.

@@ -25,7 +25,7 @@ def plot_history(
     panels : mapping of str to tuple
         For each panel's title theta and phi [rad], shape (K + 1,) each, theta_d and the band's
         half width [rad], and the step from which theta stays within the band, or None.
-    files : sequence of path
+    files : sequence of Path
         Where to write; the ending chooses the format.
     """
     figure = matplotlib.figure.Figure(figsize=(4.8 * len(panels), 3.6), layout='constrained')

@@ -29,7 +29,7 @@ def save_figures(folder: Path, progress: Callable[[str], None] | None = None) ->
 
     Parameters
     ----------
-    folder : path
+    folder : Path
         Where to write figure_2.png, figure_2.svg, ..., gains.svg; made if it is not there. What
         is there under these names is replaced.
     progress : callable, optional
@@ -37,7 +37,7 @@ def save_figures(folder: Path, progress: Callable[[str], None] | None = None) ->
 
     Returns
     -------
-    list of path
+    list of Path
         The files, in the order of the figures.
 
     Raises

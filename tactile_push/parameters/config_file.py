@@ -16,7 +16,7 @@ def config_file(name: str) -> Path:
 
     Returns
     -------
-    path
+    Path
         The file in the checkout, else under the prefix that pip or colcon installed into.
 
     Raises

@@ -53,11 +53,11 @@ def replay(
     ----------
     bag : BagReader
         The bag, with `tactile` or `contact` of at least one finger.
-    config : path, optional
+    config : Path, optional
         ROS parameter file with values to use instead of the recorded ones.
     controller : mapping of str to object, optional
         Values of parameters of `push_controller` to use instead.
-    out : path, optional
+    out : Path, optional
         Folder of the bag to write, not there yet.
     progress : callable, optional
         Called with the number of messages read so far.
