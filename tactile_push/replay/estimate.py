@@ -23,7 +23,7 @@ from tactile_push.interface import (
 from tactile_push.paper import object_with
 from tactile_push.parameters import ActiveSensingParameters
 from tactile_push.parameters.active_sensing import make_sensing
-from tactile_push.pipeline import Sensing, by_name
+from tactile_push.pipeline import by_name
 from tactile_push.pipeline.stamps import epoch_of, seconds_since, stamp_of
 from tactile_push.replay.messages import fingers_of
 from tactile_push.replay.new_bag import new_bag
@@ -67,6 +67,8 @@ def estimate(
     ValueError, OSError
         As for `tactile_push.replay.replay`.
     """
+    from tactile_push.pipeline import Sensing  # which loads the compiler
+
     namespaces = list(fingers_of(bag, [CONTROLLER_STATE], INPUTS))
     if not namespaces:
         raise BagError(

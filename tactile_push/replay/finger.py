@@ -26,7 +26,7 @@ from tactile_push.parameters import (
     PushControllerParameters,
 )
 from tactile_push.parameters.active_sensing import make_sensing
-from tactile_push.pipeline import Felt, Output, Sensing, Stamp, edge_angle
+from tactile_push.pipeline import Felt, Output, Stamp, edge_angle
 from tactile_push.pipeline.orientation import quaternion_of_yaw
 from tactile_push.pipeline.stamps import epoch_of, seconds_since, stamp_of
 from tactile_push.replay.comparison import Comparison
@@ -108,6 +108,8 @@ class Finger:
     def _replay_sensing(self, topics: Collection[str], epoch: int) -> ReplayedSensing | None:
         if not self._parameters.senses:
             return None
+        from tactile_push.pipeline import Sensing  # which loads the compiler
+
         values = ActiveSensingParameters.of(self._parameters.sensing)
         step = Sensing(make_sensing(values), partial(seconds_since, epoch))
         recorded = topics if CONTROLLER_STATE in topics else ()

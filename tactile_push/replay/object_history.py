@@ -3,6 +3,7 @@
 """From single control periods to what the whole bag tells of an object."""
 
 import math
+import typing
 from array import array
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,10 +13,13 @@ import numpy as np
 from tactile_push.control import PUSHING
 from tactile_push.estimation import CONTRADICTIONS
 from tactile_push.paper import PaperFigures, paper_figures
-from tactile_push.pipeline import Sensed, Stamp
+from tactile_push.pipeline import Stamp
 from tactile_push.replay.comparison import SensedTick
 from tactile_push.replay.messages import nanoseconds
 from tactile_push.report.merit import known_step
+
+if typing.TYPE_CHECKING:
+    from tactile_push.pipeline import Sensed
 
 BOUNDS = ('d_lower', 'd_upper', 'd_least', 'd_most')
 ROUNDING = 1e-9  # of a length [m], far below any length that matters
@@ -81,7 +85,7 @@ class ObjectHistory:
         self._forgotten: list[Forgotten] = []
         self._true_at, self._true_d = array('d'), array('d')
 
-    def add(self, state: str, theta_desired: float, sensed: Sensed) -> None:
+    def add(self, state: str, theta_desired: float, sensed: 'Sensed') -> None:
         """Take a control period with the controller's state, one of `STATES`, and goal [rad]."""
         at, values = self._seconds(sensed.stamp), sensed.values
         known = math.isfinite(values['d'])

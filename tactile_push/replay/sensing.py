@@ -3,16 +3,20 @@
 """What `active_sensing` said of a bag's control periods."""
 
 import math
+import typing
 from collections.abc import Collection, Iterator
 from typing import Any
 
 from tactile_push.bags import Message
 from tactile_push.control import Tick
 from tactile_push.interface import OBJECT_POSE, SENSING_STATE
-from tactile_push.pipeline import Sensing, Stamp, by_name
+from tactile_push.pipeline import Stamp, by_name
 from tactile_push.pipeline.stamps import stamp_before, stamp_of
 from tactile_push.replay.comparison import SensedTick
 from tactile_push.replay.messages import Written, nanoseconds
+
+if typing.TYPE_CHECKING:
+    from tactile_push.pipeline import Sensing
 
 TOPICS = (SENSING_STATE, OBJECT_POSE)
 _Waiting = tuple[Stamp, int, Tick]
@@ -29,7 +33,7 @@ class ReplayedSensing:
     end.
     """
 
-    def __init__(self, step: Sensing, recorded: Collection[str], start: int) -> None:
+    def __init__(self, step: 'Sensing', recorded: Collection[str], start: int) -> None:
         self._step = step
         self._start = start
         self._begun = SENSING_STATE not in recorded

@@ -3,6 +3,7 @@
 """What the view from above shows beside the run: the finger and the object."""
 
 import math
+import typing
 from collections.abc import Mapping
 
 import numpy as np
@@ -14,7 +15,9 @@ from tactile_push.parameters import SimPlantParameters
 from tactile_push.parameters.sim_plant import rig_config
 from tactile_push.report.columns import Table
 from tactile_push.report.data import Scene
-from tactile_push.simulation import RigConfig, paper_block, paper_disk
+
+if typing.TYPE_CHECKING:
+    from tactile_push.simulation import RigConfig
 
 SPACING = 0.001  # of points on round outlines [m]: the paper's disk looks round
 NEAR = 0.001  # between contacts and a paper's outline [m]; block and disk differ by more
@@ -34,13 +37,15 @@ def scene_of(plant: Mapping[str, object] | None, tables: Mapping[str, Table]) ->
         except ValueError:  # of another version
             return Scene(radius)
         return Scene(config.radius, _outline(config), config.mu_c)
+    from tactile_push.simulation import paper_block, paper_disk  # which loads the compiler
+
     for config in (paper_block(), paper_disk()):
         if _fits(config, radius, tables):
             return Scene(radius, _outline(config))
     return Scene(radius)
 
 
-def _outline(config: RigConfig) -> list[tuple[float, float]]:
+def _outline(config: 'RigConfig') -> list[tuple[float, float]]:
     return [(x, y) for x, y in config.slider.outline.points(SPACING).tolist()]
 
 
@@ -50,7 +55,7 @@ def _radius(tables: Mapping[str, Table]) -> float:
     return float(found) if found > 0.0 else FINGER_RADIUS
 
 
-def _fits(config: RigConfig, radius: float, tables: Mapping[str, Table]) -> bool:
+def _fits(config: 'RigConfig', radius: float, tables: Mapping[str, Table]) -> bool:
     """Return whether the contacts lie on the outline."""
     truth, pose = tables.get(TRUE_STATE, {}), tables.get(TRUE_POSE, {})
     if 'theta' not in truth or not pose:
