@@ -109,15 +109,15 @@ class Bank:
         lower, upper = hull_of_intervals(self.weights, means, variances, self._kinds, self._shares)
         return min(max(lower, low), high), max(min(upper, high), low)
 
-    def push(self, v_x: float, v_y: float, duration: float) -> None:
-        """Move the hypotheses on by a push [m/s, m/s, s]."""
+    def push(self, v_x: float, v_y: float, duration: float, spin: float) -> None:
+        """Move the hypotheses on by a push [m/s, m/s, s, rad/s]."""
         liberties = self._liberties
         parts = math.ceil(math.hypot(v_x, v_y) * duration / LONGEST_PUSH)
         errors = ModelErrors(liberties.scatter, liberties.skew, liberties.drift)
         for _ in range(parts):
             hypotheses.predict(
                 *(self._means, self._covariances, self._motions, self._moments),
-                *(Push(v_x, v_y, duration / parts), errors, self._curved),
+                *(Push(v_x, v_y, duration / parts, spin), errors, self._curved),
             )
 
     def read(self, theta: float) -> float:

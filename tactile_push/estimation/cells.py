@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What cannot be excluded: boxes of all unknowns, moved by bounds on the mechanics.
 
-No probabilities. A cell is a box of theta, of d + r (theta - theta_0), theta_0 being the first
-reading, which a sticking contact keeps whatever r is, of c^2 and of alpha = atan(mu_c). A push
+No probabilities. A cell is a box of theta, of d + r (theta - theta_0), which a sticking contact
+keeps whatever r is, of c^2 and of alpha = atan(mu_c). theta_0 is the first reading, and turns with
+the finger's disk from there. A push
 moves its faces by the least and the most that any motion inside the box and within the bounds on
 the model can do; a reading cuts theta off beyond the bound on its noise; a cell with nothing left
 is gone, and what is left is halved as often as there is room. So the truth is in one of the cells
@@ -49,7 +50,7 @@ class Bounds(NamedTuple):
     d: Interval  # ends of the edge [m]
     l: Interval  # distance from the edge to the centre of mass [m]
     r: Interval  # radius of the finger's disk [m]
-    theta_0: float  # the first reading [rad]
+    theta_0: float  # the first reading, turned as far as the disk has turned since [rad]
     turn: float  # how far omega may be from the ellipsoid's, as a share of it, below 1
     cone: float  # how far an edge of the motion cone may be from the ellipsoid's [rad]
 
@@ -125,10 +126,16 @@ def left_slopes(
 
 
 @equation
+def slip(v_t: float, v_n: float, left: float, right: float) -> float:
+    """Return the velocity of slip of a finger outside the slopes of a motion cone, 0 inside."""
+    return min(0.0, v_t - v_n * left) + max(0.0, v_t + v_n * right)
+
+
+@equation
 def rate_bounds(
     theta: float, cell: Array, friction: Array, push: Push, bounds: Bounds, cos: float, sin: float
 ) -> tuple[Interval, Interval]:
-    """Bound the rates for one theta and everything else in a cell.
+    """Bound the rates for one theta and everything else in a cell, `bounds` being of that moment.
 
     Return bounds of omega, the rate of theta [rad/s], and of the velocity of slip, the rate of
     d + r (theta - theta_0) [m/s]. `friction`, `cos` and `sin` are as in `left_slopes`.
@@ -137,21 +144,27 @@ def rate_bounds(
     cos_theta, sin_theta = math.cos(theta), math.sin(theta)
     v_t = cos_theta * push.v_x + sin_theta * push.v_y
     v_n = cos_theta * push.v_y - sin_theta * push.v_x
+    passing = scaled(bounds.r, push.spin)  # the disk's surface passes the contact along -t
+    t_low, t_high = v_t - passing.high, v_t - passing.low
     rolled = scaled(bounds.r, theta - bounds.theta_0)
     d = Interval(cell[ROLLED_LOW] - rolled.high, cell[ROLLED_HIGH] - rolled.low)
     c_squared = Interval(cell[C_SQUARED_LOW], cell[C_SQUARED_HIGH])
     if v_n > 0.0:
-        nearest, farthest = left_slopes(d, l, c_squared, friction, cos, sin)
-        slip_low = min(0.0, v_t - v_n * nearest)
-        slip_high = min(0.0, v_t - v_n * farthest)
+        left_most, left_least = left_slopes(d, l, c_squared, friction, cos, sin)
         # The right edge is the left one's mirror image.
         mirrored = Interval(-d.high, -d.low)
-        nearest, farthest = left_slopes(mirrored, l, c_squared, friction, cos, sin)
-        slip_low += max(0.0, v_t + v_n * farthest)
-        slip_high += max(0.0, v_t + v_n * nearest)
+        right_most, right_least = left_slopes(mirrored, l, c_squared, friction, cos, sin)
+        slip_low = slip(t_low, v_n, left_most, right_least)
+        slip_high = slip(t_high, v_n, left_least, right_most)
+        # What the finger does not slip, the object goes along; the faster the finger the faster.
+        along = Interval(
+            t_low - slip(t_low, v_n, left_least, right_most),
+            t_high - slip(t_high, v_n, left_most, right_least),
+        )
     else:  # pulled along, or left standing
-        slip_low, slip_high = min(0.0, v_t), max(0.0, v_t)
-    by_normal, by_tangent = scaled(d, v_n), times(l, Interval(v_t - slip_high, v_t - slip_low))
+        slip_low, slip_high = min(0.0, t_low), max(0.0, t_high)
+        along = Interval(slip_low, slip_high)
+    by_normal, by_tangent = scaled(d, v_n), times(l, along)
     turn_low, turn_high = by_normal.low + by_tangent.low, by_normal.high + by_tangent.high
     if v_n <= 0.0:
         turn_low, turn_high = min(turn_low, 0.0), max(turn_high, 0.0)
@@ -163,13 +176,22 @@ def rate_bounds(
     return Interval(omega_low, omega_high), Interval(slip_low, slip_high)
 
 
+@equation
+def turned_on(bounds: Bounds, angle: float) -> Bounds:
+    """Return the bounds after the finger's disk has turned by an angle."""
+    theta_0 = bounds.theta_0 + angle
+    return Bounds(bounds.d, bounds.l, bounds.r, theta_0, bounds.turn, bounds.cone)
+
+
 @compiled
 def push_cells(cells: Array, push: Push, bounds: Bounds) -> int:
     """Move all cells on by a push of half a millimetre at the most, and return how many are left.
 
     Those that are left come first.
     """
-    left, half, theta_0 = 0, push.duration / 2.0, bounds.theta_0
+    left, half = 0, push.duration / 2.0
+    at_half = turned_on(bounds, half * push.spin)
+    theta_0 = bounds.theta_0 + push.duration * push.spin
     middle, friction = np.empty(FACES), np.empty(4)
     cos, sin = math.cos(bounds.cone), math.sin(bounds.cone)
     speed = math.hypot(push.v_x, push.v_y)
@@ -185,8 +207,8 @@ def push_cells(cells: Array, push: Push, bounds: Bounds) -> int:
         middle[ROLLED_LOW] += half * min(slip_a.low, slip_b.low)
         middle[ROLLED_HIGH] += half * max(slip_a.high, slip_b.high)
         at_low, at_high = theta_low + half * omega_a.low, theta_high + half * omega_b.high
-        omega_a, slip_a = rate_bounds(at_low, middle, friction, push, bounds, cos, sin)
-        omega_b, slip_b = rate_bounds(at_high, middle, friction, push, bounds, cos, sin)
+        omega_a, slip_a = rate_bounds(at_low, middle, friction, push, at_half, cos, sin)
+        omega_b, slip_b = rate_bounds(at_high, middle, friction, push, at_half, cos, sin)
         # Between the faces of theta the velocity of slip bends by no more than this.
         slack = LENGTH_SLACK + speed * push.duration * (theta_high - theta_low) ** 2
         theta_low += push.duration * omega_a.low - ANGLE_SLACK

@@ -132,7 +132,9 @@ class ContactEstimator:
         self._guaranteed: GuaranteedSet | None = None
         self.log_evidence = 0.0
 
-    def push(self, theta: float, v_x: float, v_y: float, duration: float) -> Estimate:
+    def push(
+        self, theta: float, v_x: float, v_y: float, duration: float, spin: float = 0.0
+    ) -> Estimate:
         """Take a push and the reading at its end.
 
         Parameters
@@ -140,9 +142,11 @@ class ContactEstimator:
         theta : float
             Reading of the edge's angle [rad]; NaN without one.
         v_x, v_y : float
-            Mean velocity of the finger relative to the support since the last call [m/s].
+            Mean velocity of the disk's centre relative to the support since the last call [m/s].
         duration : float
             Time since the last call [s]; 0 for a reading without a push, as the first one is.
+        spin : float, optional
+            Mean angular velocity of the finger's disk since the last call [rad/s].
 
         Returns
         -------
@@ -156,10 +160,12 @@ class ContactEstimator:
         """
         if not (math.isfinite(v_x) and math.isfinite(v_y)):
             raise ValueError(f'v_x, v_y: expected finite velocities [m/s], got {v_x}, {v_y}')
+        if not math.isfinite(spin):
+            raise ValueError(f'spin: expected a finite angular velocity [rad/s], got {spin}')
         if not (math.isfinite(duration) and duration >= 0.0):
             raise ValueError(f'duration: expected a time of 0 or more [s], got {duration}')
         if self._watch is not None:
-            self._move(v_x, v_y, duration)
+            self._move(v_x, v_y, duration, spin)
         if math.isfinite(theta):
             self._theta = theta
             if self._watch is not None:
@@ -244,13 +250,13 @@ class ContactEstimator:
             radii = self.radius - slack, self.radius + slack
             self._guaranteed = GuaranteedSet(prior, self.bounds, radii, theta)
 
-    def _move(self, v_x: float, v_y: float, duration: float) -> None:
+    def _move(self, v_x: float, v_y: float, duration: float, spin: float) -> None:
         """Take a push."""
         if not self.contradiction:
             self._way += math.hypot(v_x, v_y) * duration
-            self._bank.push(v_x, v_y, duration)
+            self._bank.push(v_x, v_y, duration, spin)
             if self._guaranteed is not None:
-                self._guaranteed.push(v_x, v_y, duration)
+                self._guaranteed.push(v_x, v_y, duration, spin)
 
     def _read(self, theta: float, watch: Watch) -> None:
         """Take a reading that is not the first."""

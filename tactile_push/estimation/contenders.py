@@ -61,10 +61,10 @@ class Contenders:
         self._theta = math.nan
         self._begin()
 
-    def push(self, theta: float, v_x: float, v_y: float, duration: float) -> None:
+    def push(self, theta: float, v_x: float, v_y: float, duration: float, spin: float) -> None:
         """Take a push and the reading at its end, as `ContactEstimator.push` does."""
         for i in self._alive:
-            self._latest[i] = self._estimators[i].push(theta, v_x, v_y, duration)
+            self._latest[i] = self._estimators[i].push(theta, v_x, v_y, duration, spin)
         if math.isfinite(theta):
             self._theta = theta
             self._weigh()

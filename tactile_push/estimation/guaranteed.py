@@ -15,6 +15,7 @@ from tactile_push.estimation.cells import (
     hull,
     push_cells,
     split_cells,
+    turned_on,
 )
 from tactile_push.estimation.prior import Prior, friction
 from tactile_push.estimation.resistance import Push
@@ -81,12 +82,13 @@ class GuaranteedSet:
         c = [math.sqrt(square) for square in c_squared]
         return np.array([d, c, [friction(angle) for angle in alpha]])
 
-    def push(self, v_x: float, v_y: float, duration: float) -> None:
-        """Move the cells on by a push [m/s, m/s, s]."""
+    def push(self, v_x: float, v_y: float, duration: float, spin: float) -> None:
+        """Move the cells on by a push [m/s, m/s, s, rad/s]."""
         parts = max(1, math.ceil(math.hypot(v_x, v_y) * duration / LONGEST_PART))
-        push = Push(v_x, v_y, duration / parts)
+        push = Push(v_x, v_y, duration / parts, spin)
         for _ in range(parts):
             self._count = push_cells(self._cells[: self._count], push, self._bounds)
+            self._bounds = turned_on(self._bounds, push.duration * spin)
 
     def read(self, theta: float) -> None:
         """Cut off what a reading of theta [rad] excludes."""

@@ -75,21 +75,21 @@ def advance(
     """
     # On a disk d stays, and theta changes with the place of the tangent, too.
     along, around = (0.0, 1.0 / (l + r)) if curved else (1.0, 0.0)
-    v_x, v_y, duration = push.v_x, push.v_y, push.duration
-    half = duration / 2.0
+    v_x, v_y, duration, spin = push.v_x, push.v_y, push.duration, push.spin
+    half, passing = duration / 2.0, r * spin  # the disk's surface passes the contact along -t
     cos_alpha, sin_alpha = cone_of_angle(alpha)
     cos, sin = math.cos(theta), math.sin(theta)
-    v_t, v_n = cos * v_x + sin * v_y, cos * v_y - sin * v_x
+    v_t, v_n = cos * v_x + sin * v_y - passing, cos * v_y - sin * v_x
     c_squared, omega, v_slip = settled(v_t, v_n, d, l, cos_alpha, sin_alpha, pressure)
-    v_along = v_slip - omega * r  # (16)
+    v_along = v_slip - omega * r + passing  # (16)
     theta_half = theta + half * (omega + around * v_along)
     d_half = d + half * along * v_along
     cos, sin = math.cos(theta_half), math.sin(theta_half)
-    v_t, v_n = cos * v_x + sin * v_y, cos * v_y - sin * v_x
+    v_t, v_n = cos * v_x + sin * v_y - passing, cos * v_y - sin * v_x
     _, _, omega, v_slip, _ = pushed_twist(
         v_t, v_n, d_half, -l, cos_alpha, sin_alpha, math.sqrt(c_squared)
     )
-    v_along = v_slip - omega * r
+    v_along = v_slip - omega * r + passing
     return (
         theta + duration * (omega + around * v_along),
         d + duration * along * v_along,
@@ -165,10 +165,11 @@ def motion_of(mean: Array, moved: Moved, push: Push, curved: bool) -> tuple[floa
     l, r = mean[L], mean[R]
     turn = moved.theta - mean[THETA]
     middle = mean[THETA] + turn / 2.0
+    passed = moved.slip + r * push.spin * push.duration  # the finger's surface by the object's
     if curved:  # the tangent moves around the object, too
-        turn = (turn * (l + r) - moved.slip) / l
+        turn = (turn * (l + r) - passed) / l
     cos, sin = math.cos(middle), math.sin(middle)
-    aside = (cos * push.v_x + sin * push.v_y) * push.duration - moved.slip
+    aside = (cos * push.v_x + sin * push.v_y) * push.duration - passed
     forward = (cos * push.v_y - sin * push.v_x) * push.duration
     return turn, math.hypot(aside, forward), math.atan2(aside, forward)
 

@@ -56,7 +56,9 @@ class Estimator:
         """Forget everything, as when the finger has lost the object."""
         self._contenders.reset()
 
-    def push(self, theta: float, v_x: float, v_y: float, duration: float) -> ObjectEstimate:
+    def push(
+        self, theta: float, v_x: float, v_y: float, duration: float, spin: float = 0.0
+    ) -> ObjectEstimate:
         """Take a push and the reading at its end.
 
         Parameters
@@ -64,9 +66,11 @@ class Estimator:
         theta : float
             Reading of the pushed edge's or tangent's angle [rad]; NaN without one.
         v_x, v_y : float
-            Mean velocity of the finger relative to the support since the last call [m/s].
+            Mean velocity of the disk's centre relative to the support since the last call [m/s].
         duration : float
             Time since the last call [s]; 0 for a reading without a push, as the first one is.
+        spin : float, optional
+            Mean angular velocity of the finger's disk since the last call [rad/s].
 
         Returns
         -------
@@ -78,7 +82,7 @@ class Estimator:
         ValueError
             If a velocity is not finite, or the duration negative or not finite.
         """
-        self._contenders.push(theta, v_x, v_y, duration)
+        self._contenders.push(theta, v_x, v_y, duration, spin)
         return self.estimate()
 
     def estimate(self) -> ObjectEstimate:

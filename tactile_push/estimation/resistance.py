@@ -35,11 +35,15 @@ class Pressure(NamedTuple):
 
 
 class Push(NamedTuple):
-    """A straight push: velocity of the finger relative to the support [m/s] and duration [s]."""
+    """A straight push: velocity of the disk's centre relative to the support [m/s].
+
+    It lasts for `duration` [s], in which the disk turns with the angular velocity `spin` [rad/s].
+    """
 
     v_x: float
     v_y: float
     duration: float
+    spin: float = 0.0
 
 
 @equation

@@ -41,7 +41,7 @@ def test_two_hypotheses_are_weighed_as_bayes_does():
     for one in banks:
         one.start(0.2)
         for _ in range(6):
-            one.push(0.001, 0.005, 0.1)
+            one.push(0.001, 0.005, 0.1, 0.0)
     # As likely as their parts of c are wide, 4 and 9 mm.
     assert both.weights == pytest.approx([4.0 / 13.0, 9.0 / 13.0])
     reading = 0.26
@@ -65,7 +65,7 @@ def test_an_unlikely_hypothesis_is_dropped_and_the_weights_still_sum_to_one():
         one.start(0.2)
     for _ in range(60):
         for one in (both, true):
-            one.push(0.001, 0.005, 0.1)
+            one.push(0.001, 0.005, 0.1, 0.0)
         both.read(true.theta()[0])
     assert both.weights == pytest.approx([1.0])
 
@@ -89,9 +89,9 @@ def test_a_long_push_is_as_several_short_ones():
     long, short = bank(), bank()
     for one in (long, short):
         one.start(0.2)
-    long.push(0.001, 0.004, 0.6)  # 2.5 mm, in three parts
+    long.push(0.001, 0.004, 0.6, 0.0)  # 2.5 mm, in three parts
     for _ in range(3):
-        short.push(0.001, 0.004, 0.2)
+        short.push(0.001, 0.004, 0.2, 0.0)
     for found, expected in zip(long.moments(), short.moments(), strict=True):
         assert found == pytest.approx(expected, rel=1e-12, abs=1e-18)
 
@@ -115,7 +115,7 @@ def test_contacts_that_run_off_the_edge_are_counted():
     one.read(0.0)
     assert one.off == 0.0
     for _ in range(60):
-        one.push(0.01, 0.0001, 0.1)
+        one.push(0.01, 0.0001, 0.1, 0.0)
     assert one.read(one.theta()[0]) < math.log(1e-9)
     assert one.off == pytest.approx(1.0)
     one.start(0.0)

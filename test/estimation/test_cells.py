@@ -38,9 +38,11 @@ def box_around(rng, theta, d, c, mu_c):
 
 @pytest.mark.parametrize('mu_c', [0.0, 0.1, 0.5, math.inf])
 @pytest.mark.parametrize('support', [None, 'corners', 'rim', 'uniform'])
-def test_the_truth_stays_in_its_cell(mu_c, support):
+@pytest.mark.parametrize('turning', [0.0, 0.1])  # of the finger's disk, at the most [rad/s]
+def test_the_truth_stays_in_its_cell(mu_c, support, turning):
     rng = np.random.default_rng(3)
-    for _ in range(60):
+    for i in range(60):
+        spin = turning * math.cos(i)
         theta, d = rng.uniform(-0.4, 0.4), rng.uniform(-0.02, 0.02)
         v_x, share, angle = rng.uniform(-0.004, 0.004), 0.0, 0.0
         if support is None:
@@ -59,12 +61,12 @@ def test_the_truth_stays_in_its_cell(mu_c, support):
             share,
             angle,
         )
-        left = push_cells(cell, Push(v_x, 0.005, 0.1), bounds)
+        left = push_cells(cell, Push(v_x, 0.005, 0.1, spin), bounds)
 
-        theta, d = pushed(slider, theta, d, mu_c, v_x)
+        theta, d = pushed(slider, theta, d, mu_c, v_x, spin=spin)
         assert left == 1
         assert cell[0, 0] <= theta <= cell[0, 1]
-        assert cell[0, 2] <= d + RADIUS * theta <= cell[0, 3]
+        assert cell[0, 2] <= d + RADIUS * (theta - 0.1 * spin) <= cell[0, 3]
 
 
 def test_a_sticking_contact_stays_in_its_cell_where_the_finger_moves_along_the_edge():

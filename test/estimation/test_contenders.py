@@ -32,7 +32,7 @@ class Estimator:
     def estimate(self):
         return BEFORE
 
-    def push(self, theta, v_x, v_y, duration):
+    def push(self, theta, v_x, v_y, duration, spin=0.0):
         self.pushes.append((theta, v_x, v_y, duration))
         if duration and math.isfinite(theta):
             self.log_evidence += self.gain
@@ -45,7 +45,7 @@ def contenders(*estimators):
 
 
 def push(compared, theta=0.1):
-    compared.push(theta, 0.001, 0.005, 0.1)
+    compared.push(theta, 0.001, 0.005, 0.1, 0.0)
 
 
 def test_before_any_data_the_weights_are_those_of_the_prior():

@@ -27,7 +27,7 @@ def test_the_truth_is_never_outside_while_l_and_r_are_within_their_bounds(error)
         assert most - least < 0.04
 
 
-def follow(slider, mu_c, prior, bounds, seed, steps=120, radii=(RADIUS, RADIUS)):
+def follow(slider, mu_c, prior, bounds, seed, steps=120, radii=(RADIUS, RADIUS), turning=0.0):
     """Steer a block with noisy readings: give the set and the true d at the end."""
     rng = np.random.default_rng(seed)
     theta, d, v_x = rng.uniform(-0.3, 0.3), rng.uniform(-0.015, 0.015), 0.0
@@ -35,14 +35,16 @@ def follow(slider, mu_c, prior, bounds, seed, steps=120, radii=(RADIUS, RADIUS))
     found = GuaranteedSet(prior, bounds, radii, theta + noise[0])
     for k in range(steps):
         v_x = float(np.clip(-0.01 * (theta + noise[k]), -0.004, 0.004))
-        theta, d = pushed(slider, theta, d, mu_c, v_x)
-        found.push(v_x, 0.005, 0.1)
+        spin = turning * v_x
+        theta, d = pushed(slider, theta, d, mu_c, v_x, spin=spin)
+        found.push(v_x, 0.005, 0.1, spin)
         found.read(theta + noise[k + 1])
     return found, d
 
 
+@pytest.mark.parametrize('turning', [0.0, -13.0])  # of the finger's disk over its way [rad/m]
 @pytest.mark.parametrize('support', [None, 'corners', 'uniform'])
-def test_the_truth_is_never_outside_and_a_sticking_contact_is_found(support):
+def test_the_truth_is_never_outside_and_a_sticking_contact_is_found(support, turning):
     prior = Prior((-0.025, 0.025), HALF, mu_c=(math.inf, math.inf))
     bounds = ModelBounds(math.radians(0.5))
     for seed in range(6):
@@ -51,20 +53,21 @@ def test_the_truth_is_never_outside_and_a_sticking_contact_is_found(support):
         else:
             count = () if support == 'corners' else (60,)
             slider = Slider.on(OUTLINE, getattr(Support, support)(OUTLINE, *count), exact=True)
-        found, d = follow(slider, math.inf, prior, bounds, seed)
+        found, d = follow(slider, math.inf, prior, bounds, seed, turning=turning)
 
         (least, most), _, _ = found.ranges()
         assert least <= d <= most
         assert most - least < 0.02
 
 
+@pytest.mark.parametrize('turning', [0.0, -13.0])
 @pytest.mark.parametrize('mu_c', [0.0, 0.2, 0.6])
-def test_the_truth_is_never_outside_when_it_may_slip(mu_c):
+def test_the_truth_is_never_outside_when_it_may_slip(mu_c, turning):
     prior = Prior((-0.025, 0.025), HALF)
     bounds = ModelBounds(math.radians(0.5), 0.0, 0.0)
     for seed in range(6):
         c = 0.006 + 0.005 * seed
-        found, d = follow(Slider(OUTLINE, c), mu_c, prior, bounds, seed, 40)
+        found, d = follow(Slider(OUTLINE, c), mu_c, prior, bounds, seed, 40, turning=turning)
 
         truths = (d, c, mu_c)
         for (least, most), truth in zip(found.ranges(), truths, strict=True):
@@ -76,7 +79,7 @@ def test_readings_that_no_object_gives_leave_nothing_and_then_the_prior():
     found = GuaranteedSet(prior, ModelBounds(0.01), (RADIUS, RADIUS), 0.0)
     assert not found.empty
 
-    found.push(0.0, 0.005, 0.1)
+    found.push(0.0, 0.005, 0.1, 0.0)
     found.read(0.5)
 
     assert found.empty

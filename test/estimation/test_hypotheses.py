@@ -28,8 +28,10 @@ LOG = math.log(0.0187)
 MOMENTS = np.array(ROUND)
 
 
-def advanced(theta, d, c_squared, alpha, l, r, growth, shape, moments, v_x, v_y, duration, curved):
-    pressure, once = Pressure(c_squared, growth, shape, moments), Push(v_x, v_y, duration)
+def advanced(
+    theta, d, c_squared, alpha, l, r, growth, shape, moments, v_x, v_y, duration, curved, spin=0.0
+):
+    pressure, once = Pressure(c_squared, growth, shape, moments), Push(v_x, v_y, duration, spin)
     return advance(theta, d, alpha, l, r, pressure, once, curved)
 
 
@@ -38,22 +40,23 @@ def pushed(means, covariances, motions, moments, v_x, v_y, duration, scatter, sk
     predict(means, covariances, motions, moments, once, errors, curved)
 
 
-def exactly(theta, d, c, mu_c, v_x):
-    return pushed_block.pushed(Slider(pushed_block.OUTLINE, c), theta, d, mu_c, v_x)
+def exactly(theta, d, c, mu_c, v_x, spin=0.0):
+    return pushed_block.pushed(Slider(pushed_block.OUTLINE, c), theta, d, mu_c, v_x, spin=spin)
 
 
+@pytest.mark.parametrize('spin', [0.0, -0.06, 0.1])  # of the finger's disk [rad/s]
 @pytest.mark.parametrize('mu_c', [0.0, 0.2, 1.0, math.inf])
-def test_a_push_is_that_of_the_mechanics(mu_c):
+def test_a_push_is_that_of_the_mechanics(mu_c, spin):
     rng = np.random.default_rng(1)
     for _ in range(40):
         theta, d = rng.uniform(-0.4, 0.4), rng.uniform(-0.02, 0.02)
         c, v_x = rng.uniform(0.005, 0.036), rng.uniform(-0.004, 0.004)
         found = advanced(
             *(theta, d, c * c, math.atan(mu_c), HALF, RADIUS, 0.0, 0.0, MOMENTS),
-            *(v_x, 0.005, 0.1, False),
+            *(v_x, 0.005, 0.1, False, spin),
         )
 
-        expected = exactly(theta, d, c, mu_c, v_x)
+        expected = exactly(theta, d, c, mu_c, v_x, spin)
         assert found[0] == pytest.approx(expected[0], rel=0, abs=5e-5)
         assert found[1] == pytest.approx(expected[1], rel=0, abs=2e-6)
 
