@@ -15,7 +15,6 @@ from tactile_push.estimation.cells import (
     hull,
     push_cells,
     split_cells,
-    turned_on,
 )
 from tactile_push.estimation.prior import Prior, friction
 from tactile_push.estimation.resistance import Push
@@ -88,7 +87,8 @@ class GuaranteedSet:
         push = Push(v_x, v_y, duration / parts, spin)
         for _ in range(parts):
             self._count = push_cells(self._cells[: self._count], push, self._bounds)
-            self._bounds = turned_on(self._bounds, push.duration * spin)
+            theta_0 = self._bounds.theta_0 + push.duration * spin
+            self._bounds = self._bounds._replace(theta_0=theta_0)
 
     def read(self, theta: float) -> None:
         """Cut off what a reading of theta [rad] excludes."""
