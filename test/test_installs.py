@@ -14,16 +14,19 @@ import pytest
 from support.package import OF_POSIX, PARTS, ROOT, ROS, TREE, imported_by, run_python
 from tactile_push.cli import main
 
-# A program that begins with these lines finds no ROS 2.
-WITHOUT_ROS = (
-    'import sys\n'
-    f'for name in {sorted(filter(ROS.fullmatch, imported_by(ROOT)))}:\n'
-    '    sys.modules[name] = None\n'
-    "assert sys.modules['rclpy'] is None\n"
-)
+
+@pytest.fixture(scope='module')
+def without_ros():
+    """Return lines: a program that begins with them finds no ROS 2."""
+    return (
+        'import sys\n'
+        f'for name in {sorted(filter(ROS.fullmatch, imported_by(ROOT)))}:\n'
+        '    sys.modules[name] = None\n'
+        "assert sys.modules['rclpy'] is None\n"
+    )
 
 
-def test_commands_that_need_no_ros_run_without_it(tmp_path):
+def test_commands_that_need_no_ros_run_without_it(without_ros, tmp_path):
     pytest.importorskip('plotly', reason='pip install plotly')
     bag = str(TREE / 'test/data/stops')
     for words in (
@@ -35,18 +38,18 @@ def test_commands_that_need_no_ros_run_without_it(tmp_path):
         ['simulate', '--steps', '10'],
         ['figures', '--help'],
     ):
-        program = f'{WITHOUT_ROS}from tactile_push.cli import main\nsys.exit(main({words}))'
+        program = f'{without_ros}from tactile_push.cli import main\nsys.exit(main({words}))'
         done = subprocess.run(
             [sys.executable, '-c', program], capture_output=True, text=True, timeout=300
         )
         assert done.returncode == 0, (words, done.stderr)
 
 
-def test_library_is_imported_without_ros():
+def test_library_is_imported_without_ros(without_ros):
     parts = [part for part in PARTS if part not in OF_POSIX]
     assert {'mechanics', 'bags', 'figures', 'report', 'simulation'} <= set(parts)
     found = run_python(
-        f'{WITHOUT_ROS}from importlib import import_module\n'
+        f'{without_ros}from importlib import import_module\n'
         f'for part in {parts}:\n'
         "    import_module(f'tactile_push.{part}')\n"
         "print('[]')"
@@ -60,8 +63,8 @@ NEEDS_ROS = (
 
 
 @pytest.mark.parametrize('words', [['record'], ['play', 'bag'], ['demo']])
-def test_command_that_needs_ros_says_how_to_get_it(words):
-    program = f'{WITHOUT_ROS}from tactile_push.cli import main\nsys.exit(main({words}))'
+def test_command_that_needs_ros_says_how_to_get_it(without_ros, words):
+    program = f'{without_ros}from tactile_push.cli import main\nsys.exit(main({words}))'
     done = subprocess.run(
         [sys.executable, '-c', program], capture_output=True, text=True, timeout=60
     )
@@ -69,8 +72,8 @@ def test_command_that_needs_ros_says_how_to_get_it(words):
     assert done.stderr == f'tactile_push {words[0]}: {NEEDS_ROS}\n'
 
 
-def test_node_without_ros_says_how_to_get_it(tmp_path):
-    (tmp_path / 'sitecustomize.py').write_text(WITHOUT_ROS)
+def test_node_without_ros_says_how_to_get_it(without_ros, tmp_path):
+    (tmp_path / 'sitecustomize.py').write_text(without_ros)
     done = subprocess.run(
         [sys.executable, '-m', 'tactile_push.nodes.sensor_driver'],
         env={'PYTHONPATH': f'{tmp_path}:{TREE}'},

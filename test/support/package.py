@@ -3,6 +3,7 @@
 """The tree of the package, for tests of the package as a whole."""
 
 import ast
+import functools
 import json
 import re
 import subprocess
@@ -24,6 +25,7 @@ POSIX = {'fcntl', 'grp', 'pty', 'pwd', 'resource', 'termios', 'tty'}
 OF_POSIX = {'nodes', 'playing', 'recording', 'testing', 'demo'}
 
 
+@functools.cache
 def imports(path, *, at_once=False):
     """Return the names of all modules that a file imports, inside functions too or at once."""
     tree = ast.parse(path.read_text())
@@ -34,7 +36,7 @@ def imports(path, *, at_once=False):
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f'{path}: imports by dots are hard to follow'
             names.add(node.module)
-    return names
+    return frozenset(names)
 
 
 def imported_by(folder):
