@@ -28,6 +28,7 @@ from sensor_msgs.msg import JointState  # noqa: E402
 from visualization_msgs.msg import Marker, MarkerArray  # noqa: E402
 
 from tactile_push.bags import BagWriter  # noqa: E402
+from tactile_push.recording import recorder as recording  # noqa: E402
 from tactile_push.recording.recorder import Recorder, common_type_hash, message_class  # noqa: E402
 from tactile_push.testing.processes import claim_domain  # noqa: E402
 
@@ -364,6 +365,12 @@ def test_nothing_is_recorded_after_stop(graph, writer):
 
 
 @pytest.fixture
+def often(monkeypatch):
+    """Let recorders look for topics a hundred times a second."""
+    monkeypatch.setattr(recording, '_SEARCH_PERIOD', 0.01)
+
+
+@pytest.fixture
 def errors(graph):
     """Return the list of the errors that the recording node logs."""
     errors = []
@@ -391,6 +398,7 @@ def add_to_graph(graph, topic, type_names):
     return looks
 
 
+@pytest.mark.usefixtures('often')
 def test_type_that_is_not_installed_is_reported_once_and_stays_missing(graph, writer, errors):
     tactile = graph.publisher(JointState, 'tactile')
     looks = add_to_graph(graph, graph.name + 'strange', ['nowhere_msgs/msg/Thing'])
@@ -405,6 +413,7 @@ def test_type_that_is_not_installed_is_reported_once_and_stays_missing(graph, wr
     assert 'nowhere_msgs/msg/Thing' in error
 
 
+@pytest.mark.usefixtures('often')
 def test_one_of_two_types_is_recorded_and_the_other_reported_once(graph, writer, path, errors):
     first = graph.publisher(JointState, 'tactile')
     recorder = Recorder(graph.node, ['tactile', 'contact'], writer)
