@@ -196,21 +196,26 @@ def test_lost_contact_is_forgotten_and_found_again(
 def test_sensor_whose_clock_is_ahead_is_heard_as_the_controller_hears_it(
     nodes: NodeProcesses, sensing: Sensing, rig: Rig, observer: Observer, tmp_path: Path
 ):
-    block = {'config': config_file('block.yaml')}
     ahead = observer.node.create_publisher(PoseStamped, 'contact', 10)
 
     def pass_on(message: PoseStamped) -> None:
-        stamp = Time.from_msg(message.header.stamp) + Duration(nanoseconds=20_000_000)
+        # By two and a half readings: one that comes a reading late is ahead as well.
+        stamp = Time.from_msg(message.header.stamp) + Duration(nanoseconds=50_000_000)
         message.header.stamp = stamp.to_msg()
         ahead.publish(message)
 
     observer.node.create_subscription(PoseStamped, 'contact_in_time', pass_on, 10)
-    sensing.start(use_sim_time=False)
+    sensing.start()
+    block, simulated = {'config': config_file('block.yaml')}, {'use_sim_time': True}
     device = {'device': str(tmp_path / 'sensor')}
-    nodes.start('push_controller', **block)
-    nodes.start('sim_plant', {**device, 'sensor_noise': NOISE}, **block)
-    nodes.start('sensor_driver', device)
-    nodes.start('contact_geometry', **block, arguments=('-r', 'contact:=contact_in_time'))
+    # The plant's time waits for commands and for the contacts of its own readings, so that a loaded
+    # machine loses none.
+    plant = {**device, 'sensor_noise': NOISE, 'publish_clock': True}
+    in_time = ('-r', 'contact:=contact_in_time')
+    nodes.start('push_controller', simulated, **block)
+    nodes.start('sim_plant', plant, **block, arguments=in_time)
+    nodes.start('sensor_driver', device | simulated)
+    nodes.start('contact_geometry', simulated, **block, arguments=in_time)
     pushing = float(STATES.index(PUSHING))
 
     def ticks() -> list[JointState]:
