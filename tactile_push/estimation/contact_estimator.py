@@ -12,6 +12,7 @@ from tactile_push.estimation.contradictions import IMPOSSIBLE, Watch
 from tactile_push.estimation.guaranteed import GuaranteedSet, ModelBounds
 from tactile_push.estimation.hypotheses import ALPHA, LOG_C, THETA, D, L, R
 from tactile_push.estimation.prior import Prior, friction
+from tactile_push.estimation.recent import Recent
 from tactile_push.mechanics.compiled import Array
 from tactile_push.paper import FINGER_RADIUS
 
@@ -181,6 +182,22 @@ class ContactEstimator:
             return ''
         return self._watch.reason or (IMPOSSIBLE if self.impossible else '')
 
+    def reconsider(self) -> str:
+        """Find out whether another contact on the edge explains a contradiction as well.
+
+        It goes through the last readings again, which takes as long as so many pushes. After a
+        contradiction only.
+
+        Returns
+        -------
+        str
+            Why no number is to be believed.
+        """
+        watch = self._watch
+        if watch is not None and watch.doubtful:
+            watch.compare(self._recent.gain(self._bank, watch.doubtful))
+        return self.contradiction
+
     @property
     def impossible(self) -> bool:
         """Whether the data exclude everything within the bounds."""
@@ -244,6 +261,7 @@ class ContactEstimator:
         prior = self.prior
         self._bank.start(theta)
         self._watch = Watch(self.noise, self.outlier, prior.l, theta)
+        self._recent = Recent(theta)
         self._way = 0.0
         if not self.disk:
             slack = 3.0 * self.radius_sigma
@@ -255,6 +273,7 @@ class ContactEstimator:
         if not self.contradiction:
             self._way += math.hypot(v_x, v_y) * duration
             self._bank.push(v_x, v_y, duration, spin)
+            self._recent.push(v_x, v_y, duration, spin)
             if self._guaranteed is not None:
                 self._guaranteed.push(v_x, v_y, duration, spin)
 
@@ -266,6 +285,7 @@ class ContactEstimator:
         error = (theta - mean) / math.sqrt(variance + self.noise**2)
         log_density = self._bank.read(theta)
         self.log_evidence += log_density
+        self._recent.read(theta, log_density)
         watch.read(theta, self._way, error, log_density, self._bank.off)
         self._way = 0.0
         # What is rather an outlier than not has no bounds.

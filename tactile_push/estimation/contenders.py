@@ -86,7 +86,7 @@ class Contenders:
             evidence[i] = math.log(self._prior[i]) + self._estimators[i].log_evidence
         agree = [i for i in self._alive if not self._latest[i].contradiction]
         if not agree:
-            reason = self._latest[int(np.argmax(evidence))].contradiction
+            reason = self._estimators[int(np.argmax(evidence))].reconsider()
             self._probation.contradicted(reason, self._theta)
             self._begin()
         elif self._probation.agreed(self._theta):

@@ -9,6 +9,10 @@ it falls below 0, so it is about the last readings however long the push has bee
 model is right, a sum rises above h less than once in exp(h) readings. Sums leak, so that a tiny
 advantage over very long times says nothing.
 
+An edge also stands still, or turns otherwise than expected, if the contact is not where the model
+has it. Belt and outline are blamed only if an object of this outline on a moving belt, pushed
+anywhere on the edge, does not explain the readings before and during the contradiction as well.
+
 The test is that of E. S. Page, "Continuous inspection schemes", Biometrika 41, 100-115, 1954.
 """
 
@@ -25,6 +29,10 @@ MOST_SURPRISE = 25.0  # what one reading can add to the surprise
 OFF = 0.95  # share of the hypotheses off the edge that contradicts the model
 NEAR = 6.0  # standard deviations within which readings are the same
 CHANGE = 1.0  # way over which the rate of an arbitrarily turning edge changes, in l
+BEFORE = 40  # readings before a contradiction begins that tell where the contact was
+# The logarithm of how much less likely an explanation may be that does as well. To know the contact
+# anywhere on the edge, and not to a fiftieth of it, costs as much.
+AS_WELL = math.log(50.0)
 AGAIN = 2  # readings outside `NEAR` in a row that show that an edge turns again
 FEWEST, MOST = 40, 200  # readings that have to agree after a contradiction
 
@@ -35,7 +43,8 @@ LEFT = 'the contact has run off the end of the edge'
 OTHERWISE = 'the edge turns otherwise than that of any object of this outline: is it another one?'
 NOISY = 'the readings scatter far more than the stated noise'
 IMPOSSIBLE = 'no object within the bounds on l, r, c, mu_c and noise turns like this'
-CONTRADICTIONS = ('', ANYWHERE, JUMPED, STILL, LEFT, OTHERWISE, NOISY, IMPOSSIBLE)
+MOVED = 'the contact is not where it has rolled to along the edge: does the finger tip turn?'
+CONTRADICTIONS = ('', ANYWHERE, JUMPED, STILL, LEFT, OTHERWISE, NOISY, IMPOSSIBLE, MOVED)
 
 
 class _Line:
@@ -50,11 +59,13 @@ class _Line:
 
     def start(self, theta: float) -> None:
         self.sum = 0.0
+        self.readings = 0  # since then
         self._theta, self._slope = theta, 0.0
         self._tt, self._ts, self._ss = self._noise, 0.0, self._rate
 
     def read(self, theta: float, way: float, log_density: float) -> None:
         """Move on by a way, take the reading and compare with the model."""
+        self.readings += 1
         self._theta += way * self._slope
         grown = self._change * way
         self._tt += way * (2.0 * self._ts + way * (self._ss + grown / 3.0))
@@ -118,6 +129,28 @@ class Watch:
         self._anywhere = max(0.0, self._anywhere)
         if not self.reason:
             self.reason = self._why(off)
+
+    @property
+    def doubtful(self) -> int:
+        """Number of the last readings that led to a contradiction which may be the contact's alone.
+
+        They are those that the edge has stood still or turned otherwise, and some before; 0 if
+        there is no such contradiction.
+        """
+        return self._blamed().readings + BEFORE if self.reason in (STILL, OTHERWISE) else 0
+
+    def compare(self, gain: float) -> None:
+        """Blame neither belt nor outline if another contact on the edge does as well.
+
+        `gain` is by how much the logarithm of the probability density of the doubtful readings is
+        above the model's if the contact may have been anywhere on the edge before them.
+        """
+        if gain > self._blamed().sum - AS_WELL:
+            self.reason = MOVED
+
+    def _blamed(self) -> _Line:
+        """Return the edge that explains the doubtful readings best."""
+        return self._still if self.reason == STILL else self._turning
 
     def _why(self, off: float) -> str:
         """Return what contradicts the model now."""

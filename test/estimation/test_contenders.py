@@ -23,6 +23,7 @@ class Estimator:
 
     def __init__(self, gain, contradiction=''):
         self.gain, self.contradiction = gain, contradiction
+        self.reconsidered = ''
         self.impossible = False
         self.reset()
 
@@ -31,6 +32,9 @@ class Estimator:
 
     def estimate(self):
         return BEFORE
+
+    def reconsider(self):
+        return self.reconsidered or self.contradiction
 
     def push(self, theta, v_x, v_y, duration, spin=0.0):
         self.pushes.append((theta, v_x, v_y, duration))
@@ -46,6 +50,25 @@ def contenders(*estimators):
 
 def push(compared, theta=0.1):
     compared.push(theta, 0.001, 0.005, 0.1, 0.0)
+
+
+def test_reason_is_what_the_likeliest_says_when_it_has_reconsidered():
+    estimators = [Estimator(gain, 'contradicted') for gain in (0.0, 2.0, 1.0)]
+    for number, estimator in enumerate(estimators):
+        estimator.reconsidered = f'reconsidered by {number}'
+    compared = contenders(*estimators)
+    push(compared)
+    push(compared)
+    assert compared.contradiction == 'reconsidered by 1'
+
+
+def test_nobody_reconsiders_while_another_one_agrees():
+    agreeing, contradicted = Estimator(0.0), Estimator(1.0, 'contradicted')
+    contradicted.reconsider = None  # would raise
+    compared = contenders(agreeing, contradicted, Estimator(0.5))
+    push(compared)
+    push(compared)
+    assert compared.contradiction == ''
 
 
 def test_before_any_data_the_weights_are_those_of_the_prior():

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from support.pushed_block import pushed
 from tactile_push.control import PushLaw, finger_velocity
 from tactile_push.mechanics import Outline, Slider
 from tactile_push.simulation import Rig, RigConfig
@@ -52,6 +53,26 @@ def pushes(rig, steps, seed, noise=NOISE, belt_stops=None):
         running = belt_stops is None or k < belt_stops
         rig.step(finger_velocity(law.update(theta), BELT), PERIOD, running)
         if not rig.touching or not 0.0 <= rig.sigma <= length:
+            break
+    return made
+
+
+def pushes_by_a_tip(seed, steps=400, turn=0.0, stands_from=math.inf):
+    """Let the law push the block with a tip that turns by `turn` [rad/m] as the finger moves.
+
+    From step `stands_from` on the object stands still.
+    """
+    rng = np.random.default_rng(seed)
+    theta, d, c = rng.uniform((-0.35, -0.01, 0.012), (0.35, 0.01, 0.025))
+    law, slider = PushLaw(0.05, 5.0, math.radians(-10.0)), Slider(Outline.polygon(BLOCK), c)
+    v_x, made = 0.0, []
+    for k in range(steps + 1):
+        reading = theta + NOISE * rng.standard_normal()
+        made.append(Push(reading, v_x, PERIOD if k else 0.0, d, math.nan, math.nan, theta))
+        v_x = finger_velocity(law.update(reading), BELT)
+        if k < stands_from:
+            theta, d = pushed(slider, theta, d, math.inf, v_x, spin=turn * v_x)
+        if abs(d) > BLOCK[1][0] - 0.001:
             break
     return made
 
