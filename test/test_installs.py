@@ -118,6 +118,7 @@ def foreign(folder):
 
 
 def test_setup_requires_what_the_package_imports_and_nothing_else(setup):
+    pytest.importorskip('plotly')
     projects = packages_distributions()
     modules = {name for name in foreign(ROOT) if not ROS.fullmatch(name)} - {'pytest'}
     needed = {projects[name][0].lower().replace('_', '-') for name in modules}

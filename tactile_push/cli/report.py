@@ -6,6 +6,7 @@ import argparse
 import json
 import re
 from dataclasses import replace
+from importlib.util import find_spec
 from pathlib import Path
 
 from tactile_push.cli.arguments import BAG, Commands, page
@@ -36,9 +37,11 @@ def add(commands: Commands) -> None:
 
 def _report(options: argparse.Namespace) -> int:
     from tactile_push.bags.disk import write_whole
-    from tactile_push.cli.output import opened, reading, warner
+    from tactile_push.cli.output import Refused, opened, reading, warner
     from tactile_push.report import messages_shown, read_run, report_html
 
+    if find_spec('plotly') is None:  # for which rosdep has no key
+        raise Refused('needs plotly: pip install plotly')
     warnings: list[str] = []
     with opened(options.bag, warnings.append) as bag, reading(messages_shown(bag)) as progress:
         run = read_run(bag, progress)

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+pytest.importorskip('plotly')
+
 from support.commands import BAG, few_bytes, run_command
 from support.pushed_bag import START, write_bag
 from tactile_push.bags import BagWriter
@@ -20,6 +22,12 @@ def bag(tmp_path_factory):
 
 def contents(folder):
     return {path: path.read_bytes() for path in folder.iterdir()}
+
+
+def test_plotly_that_is_missing_is_said_in_one_line(bag, monkeypatch, capsys):
+    monkeypatch.setattr('tactile_push.cli.report.find_spec', lambda name: None)
+    assert main(['report', str(bag)]) == 2
+    assert capsys.readouterr().err == 'tactile_push report: needs plotly: pip install plotly\n'
 
 
 def test_page_gets_the_name_of_the_bag_and_lies_here(bag, tmp_path, monkeypatch, capsys):

@@ -11,6 +11,8 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
+pytest.importorskip('plotly')
+
 from tactile_push.report import report_html
 from tactile_push.report.data import Episode, Run, Scene, Series
 

@@ -91,6 +91,8 @@ def test_signal_ends_a_node_in_silence(environment, observer, signum):
 @pytest.mark.parametrize('by_name', [False, True])
 def test_signal_during_the_imports_ends_a_node_in_silence(environment, signum, by_name):
     script = Path(sys.executable).with_name('sim_plant')
+    if by_name and not script.exists():
+        pytest.skip('the commands are not beside Python: pip install . puts them there')
     process = subprocess.Popen(
         [str(script)] if by_name else command('sim_plant'),
         env=environment,
