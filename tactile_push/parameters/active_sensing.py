@@ -12,8 +12,9 @@ from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
 
 if typing.TYPE_CHECKING:
-    from tactile_push.estimation import ActiveSensing, Edge
+    from tactile_push.estimation import ActiveSensing
 
+TINY = 1e-12  # what is shorter is no edge [m]
 X, Y = BLOCK_EDGE / 2.0, BLOCK_L  # of a corner of the paper's block [m]
 
 
@@ -62,28 +63,20 @@ class ActiveSensingParameters(NodeParameters):
         """Corners of the outline about the centre of mass [m]."""
         return list(zip(self.vertices[::2], self.vertices[1::2], strict=False))
 
+    @property
+    def distances(self) -> list[float]:
+        """Each l that the pushed edge may have, or the radius of a disk [m].
 
-def possible_edges(p: ActiveSensingParameters) -> 'tuple[Edge, ...]':
-    """Return the edges that may be pushed as far as the parameters tell, none of a disk.
-
-    Raises
-    ------
-    ValueError
-        If the outline is none or has no such edge.
-    """
-    from tactile_push.estimation import edges_of  # which loads the compiler
-
-    if p.disk_radius > 0.0:
-        return ()
-    numbers = len(p.vertices)
-    if numbers % 2 or numbers < 6:
-        raise ValueError(
-            f'vertices: expected x and y of three corners or more, got {numbers} numbers'
-        )
-    edges = edges_of(p.corners)
-    if p.edge >= len(edges):
-        raise ValueError(f'edge: expected -1 to {len(edges) - 1}, got {p.edge}')
-    return edges if p.edge < 0 else edges[p.edge : p.edge + 1]
+        Of an outline that is none the list may be empty and its numbers may not be positive.
+        """
+        if self.disk_radius > 0.0:
+            return [self.disk_radius]
+        corners = self.corners
+        found = [
+            (x * next_y - next_x * y) / max(math.hypot(next_x - x, next_y - y), TINY)
+            for (x, y), (next_x, next_y) in zip(corners, corners[1:] + corners[:1], strict=True)
+        ]
+        return found if self.edge < 0 else found[self.edge : self.edge + 1]
 
 
 def make_sensing(p: ActiveSensingParameters) -> 'ActiveSensing':
@@ -99,6 +92,7 @@ def make_sensing(p: ActiveSensingParameters) -> 'ActiveSensing':
         DiskEstimator,
         FingerMotion,
         ObjectEstimator,
+        edges_of,
     )
 
     for name in ('c', 'mu_c'):
@@ -109,8 +103,18 @@ def make_sensing(p: ActiveSensingParameters) -> 'ActiveSensing':
     if p.disk_radius > 0.0:
         estimator = DiskEstimator(p.disk_radius, p.noise, radius=p.finger_radius)
     else:
+        numbers = len(p.vertices)
+        if numbers % 2 or numbers < 6:
+            raise ValueError(
+                f'vertices: expected x and y of three corners or more, got {numbers} numbers'
+            )
+        edges = edges_of(p.corners)
+        if p.edge >= len(edges):
+            raise ValueError(f'edge: expected -1 to {len(edges) - 1}, got {p.edge}')
+        if p.edge >= 0:
+            edges = edges[p.edge : p.edge + 1]
         estimator = ObjectEstimator(
-            possible_edges(p),
+            edges,
             p.noise,
             c=(p.c_min, p.c_max),
             mu_c=(p.mu_c_min, p.mu_c_max),

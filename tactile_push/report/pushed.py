@@ -20,7 +20,6 @@ from tactile_push.paper import (
     object_with,
 )
 from tactile_push.parameters import ActiveSensingParameters
-from tactile_push.parameters.active_sensing import possible_edges
 
 # The parameters of `sim_plant` that are the sizes of an object, l last, and the paper's values.
 SIZES = {
@@ -83,8 +82,10 @@ def _told_object(sensing: Mapping[str, object]) -> tuple[str | None, list[float]
         return None, []
     try:
         told = ActiveSensingParameters.of(sensing)
-        distances = sorted(edge.l for edge in possible_edges(told)) or [told.disk_radius]
     except ValueError:  # of another version
+        return None, []
+    distances = sorted(told.distances)
+    if not (distances and distances[0] > 0.0):
         return None, []
     possible = distances[:1]
     for distance in distances:

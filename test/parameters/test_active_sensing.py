@@ -32,6 +32,21 @@ def test_a_known_edge_is_the_only_one_and_keeps_its_number():
     assert edge.length == pytest.approx(math.hypot(0.02, 0.05))
 
 
+@pytest.mark.parametrize('edge', [-1, 0, 2])
+def test_distances_are_those_of_the_edges_that_may_be_pushed(edge):
+    values = {'vertices': TRIANGLE, 'edge': edge}
+    # Twice the area of the triangle of an edge and the centre of mass, over the edge, by hand.
+    by_hand = [
+        (0.03 * 0.02 + 0.04 * 0.015) / math.hypot(0.07, 0.005),
+        (0.04 * 0.035 - 0.01 * 0.02) / math.hypot(0.05, 0.055),
+        (0.01 * 0.015 + 0.03 * 0.035) / math.hypot(0.02, 0.05),
+    ]
+    expected = by_hand if edge < 0 else [by_hand[edge]]
+    assert ActiveSensingParameters(**values).distances == pytest.approx(expected)
+    assert [one.l for one in first_estimate(**values).edges] == pytest.approx(expected)
+    assert ActiveSensingParameters(disk_radius=0.03, **values).distances == [0.03]
+
+
 def test_a_disk_has_no_edges():
     estimate = first_estimate(disk_radius=0.03, vertices=[])
     assert estimate.edges == ()

@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from support.package import run_python
 from tactile_push.paper import BLOCK, DISK, OTHER
 from tactile_push.report.pushed import plant_object, pushed_object
 
@@ -51,6 +52,12 @@ def test_object_of_the_plant_is_the_papers_only_with_its_sizes(plant, pushed, l)
         ({'vertices': BLOCK_OUTLINE, 'edge': 7}, None, None),
         ({'vertices': BLOCK_OUTLINE[:5]}, None, None),
         ({'vertices': 'round'}, None, None),
+        ({'vertices': [0.0] * 8, 'edge': 0}, None, None),
+        (
+            {'vertices': [-0.03, 0.03, 0.03, 0.03, 0.03, -0.03, -0.03, -0.03]},
+            None,
+            None,
+        ),  # clockwise
     ],
 )
 def test_without_a_simulator_active_sensing_was_told_what_is_pushed(sensing, pushed, l):
@@ -58,6 +65,16 @@ def test_without_a_simulator_active_sensing_was_told_what_is_pushed(sensing, pus
     assert found.object == pushed
     assert found.l == (None if l is None else pytest.approx(l, rel=1e-12))
     assert found.remark == ''
+
+
+def test_what_is_pushed_is_found_without_compiled_mathematics():
+    loaded = run_python(
+        'import json, sys\n'
+        'from tactile_push.report.pushed import pushed_object\n'
+        f"found = pushed_object({{'active_sensing': {{'vertices': {SQUARE}}}}}, '')\n"
+        "print(json.dumps([found.l, 'numba' in sys.modules]))"
+    )
+    assert loaded == [pytest.approx(0.03), False]
 
 
 def test_other_finger_has_another_object():
