@@ -9,7 +9,7 @@ from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 
-from tactile_push.cli.arguments import BAG, Commands, page
+from tactile_push.cli.arguments import BAG, Commands, Refused, page
 
 ENDINGS = r'(\.mcap)?(\.zstd)?$'  # of a bag's file
 
@@ -37,7 +37,7 @@ def add(commands: Commands) -> None:
 
 def _report(options: argparse.Namespace) -> int:
     from tactile_push.bags.disk import write_whole
-    from tactile_push.cli.output import Refused, opened, reading, warner
+    from tactile_push.cli.output import opened, reading, warner
     from tactile_push.report import messages_shown, read_run, report_html
 
     if find_spec('plotly') is None:  # for which rosdep has no key

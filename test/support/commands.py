@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The command in a process of its own, on a bag of its own."""
 
+import os
 import resource
 import signal
 import subprocess
@@ -20,6 +21,7 @@ def run_command(*arguments: object, **options) -> subprocess.CompletedProcess[st
 
 
 def few_bytes() -> None:
-    """Let files grow no larger than 8 kB."""
+    """Let files grow no larger than 8 kB, in a process that is about to begin."""
+    os.environ['PYTHONDONTWRITEBYTECODE'] = '1'  # Python keeps a module that it wrote in part
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (8192, 8192))
