@@ -15,12 +15,9 @@ INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --ed
 # Tests of real nodes and messages, which unit tests are not.
 GRAPH := test/faults test/fuzzing test/nodes test/playing test/recording test/soaking test/system \
   test/testing
-# Two processes: while one waits for nodes the other computes. A file's tests share what was started
-# for them, so each process begins with a half of the files.
-PYTEST := $(BIN)/python -m pytest --numprocesses 2 --dist worksteal
-
-# Without bytecode each of the hundreds of processes that tests start would compile what it imports.
-unexport PYTHONDONTWRITEBYTECODE
+# Three processes on two cores: while some wait for nodes the others compute. A file's tests share
+# what was started for them, so each process begins with its part of the files.
+PYTEST := $(BIN)/python -m pytest --numprocesses 3 --dist worksteal
 
 .PHONY: demo test test-quick docs lint bench faults fuzz soak clean
 

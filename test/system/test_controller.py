@@ -203,7 +203,7 @@ def test_another_commander_stops_the_finger_until_it_is_resumed(world: World, re
     if reliability == 'BEST_EFFORT':
         world.observer.node.destroy_timer(repeat)
     world.observer.wait_for(
-        lambda: world.levels()[-1] == (b'\x02', 'stopped: another command, until resumed'),
+        lambda: world.levels()[-1:] == [(b'\x02', 'stopped: another command, until resumed')],
         'an error',
     )
     world.check_that_it_rests(8)
@@ -281,12 +281,13 @@ def test_tick_of_simulated_time_hears_every_contact_that_has_arrived(world: Worl
 def test_time_that_stands_still_is_a_warning(world: World):
     world.time = 50.0
     world.start()
-    assert world.levels()[-1][1] == 'pushing'
+    pushing = (DiagnosticStatus.OK, 'pushing')
+    world.observer.wait_for(lambda: world.levels()[-1:] == [pushing], 'pushing')
     world.step = 0.0
     words = 'pushing, but time stands still'
-    world.observer.wait_for(lambda: world.levels()[-1] == (DiagnosticStatus.WARN, words), words)
+    world.observer.wait_for(lambda: world.levels()[-1:] == [(DiagnosticStatus.WARN, words)], words)
     world.step = 0.02
-    world.observer.wait_for(lambda: world.levels()[-1][1] == 'pushing', 'pushing')
+    world.observer.wait_for(lambda: world.levels()[-1:] == [pushing], 'pushing')
 
 
 def test_finger_at_its_workspace_limit_moves_inward_only(world: World):
@@ -321,7 +322,7 @@ def test_inactive_is_said_on_the_state_topic_and_in_diagnostics(world: World):
     assert world.observer.change_state('push_controller', Transition.TRANSITION_DEACTIVATE)
     world.wait_for_state('inactive')
     assert world.commands[-1].twist.linear.x == 0.0
-    world.observer.wait_for(lambda: world.levels()[-1] == (b'\x00', 'inactive'), 'inactive')
+    world.observer.wait_for(lambda: world.levels()[-1:] == [(b'\x00', 'inactive')], 'inactive')
     assert not world.resume().success
 
 
