@@ -41,6 +41,7 @@ QUIET = 2.0  # for which the graph must not change [s]: nodes are discovered one
 PATIENCE = 5.0  # after which the play begins in any case [s]; discovery takes up to 3 s
 ANSWER_TIMEOUT = 1.0  # of the playing thread, which may have to wait for the disk [s]
 LAST_WORDS = 1.0  # for subscribers to acknowledge the last messages [s]; picked
+LAST_FLIGHT = 0.2  # for the last messages, if nobody has to acknowledge them [s]; picked
 TIME_ENDS = 2**31 * 10**9  # the first time that builtin_interfaces/Time cannot hold [ns]
 
 
@@ -184,9 +185,12 @@ class Player:
         try:
             self._play()
             deadline = time.monotonic() + LAST_WORDS
-            for publisher in self._publishers.values():
+            publishers = self._publishers.values()
+            for publisher in publishers:
                 left = 0.0 if self._stopping else max(deadline - time.monotonic(), 0.0)
                 publisher.wait_for_all_acked(Duration(seconds=left))
+            if not self._stopping and any(map(_is_best_effort, publishers)):
+                time.sleep(LAST_FLIGHT)
         except Exception as error:
             self.error = error
         if not self._stopping:
@@ -271,6 +275,10 @@ def _make_publisher(node: Node, topic: Topic, name: str) -> Publisher:
         node.destroy_publisher(publisher)
         raise LookupError(f'{topic.type_name} is installed in another version')
     return publisher
+
+
+def _is_best_effort(publisher: Publisher) -> bool:
+    return bool(publisher.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT)
 
 
 def profile_of(offer: Offer) -> QoSProfile:
