@@ -4,7 +4,7 @@
 
 import math
 import typing
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from typing import Any
 
 from tactile_push.bags import Message
@@ -28,9 +28,9 @@ class ReplayedSensing:
 
     A node that started after the controller did not hear the first control periods. If the node
     started before the recording, its memory is unknown. So what was recorded is kept until the node
-    says that there was no reading before. At the end of a recording the node may not have come to
-    the last control periods yet. A topic that was not recorded is made from the beginning to the
-    end.
+    says that there was no reading before, in a control period that was recorded, too. At the end of
+    a recording the node may not have come to the last control periods yet. A topic that was not
+    recorded is made from the beginning to the end.
     """
 
     def __init__(self, step: 'Sensing', recorded: Collection[str], start: int) -> None:
@@ -48,6 +48,8 @@ class ReplayedSensing:
         self._waiting: list[_Waiting] = []
         self._pose: tuple[Stamp, Message] | None = None  # may belong to where the node begins
         self._kept = False  # whether a recorded state was kept
+        # What was recorded since the node seems to begin, until that control period comes.
+        self._doubtful: list[tuple[Callable[..., Iterator[Written]], Message, Any]] = []
         self.sensed: list[SensedTick] = []
 
     def tick(self, stamp: Stamp, log_time: int, tick: Tick) -> Iterator[Written]:
@@ -58,10 +60,14 @@ class ReplayedSensing:
         if not self._begun and stamp < self._begins:
             self._before = stamp, log_time, tick
             return
+        if not self._begun and stamp > self._begins:
+            yield from self._not_begun((stamp, log_time, tick))
+            return
         if not self._begun and self._kept and self._before is not None:
             # The node forgot what it knew, but not how the finger was moving.
             self._step.tick(self._before[0], self._before[2])
         self._begun = True
+        self._doubtful = []
         sensed = self._step.tick(stamp, tick)
         since = (nanoseconds(stamp) - self._start) * 1e-9
         self.sensed.append(SensedTick.of(since, sensed.values))
@@ -77,6 +83,8 @@ class ReplayedSensing:
         """Take a recorded message of `active_sensing/state`, and yield messages to write."""
         stamp = stamp_of(decoded)
         if self._begins is not None:
+            if not self._begun:
+                self._doubtful.append((self.state, message, decoded))
             yield from self._come(SENSING_STATE, stamp)
             return
         self._come_to[SENSING_STATE] = stamp
@@ -92,6 +100,7 @@ class ReplayedSensing:
             yield message
             return
         self._begins = stamp
+        self._doubtful = [(self.state, message, decoded)]
         made_again = readings == 1.0 and math.isfinite(age)
         yield from self._keep_pose(stamp_before(*stamp, age) if made_again else None)
         waiting, self._waiting = self._waiting, []
@@ -103,6 +112,8 @@ class ReplayedSensing:
         """Take a recorded message of `object_pose`, and yield messages to write."""
         stamp = stamp_of(decoded)
         if self._begins is not None:
+            if not self._begun:
+                self._doubtful.append((self.pose, message, decoded))
             yield from self._come(OBJECT_POSE, stamp)
             return
         self._come_to[OBJECT_POSE] = stamp
@@ -112,7 +123,20 @@ class ReplayedSensing:
     def finish(self) -> Iterator[Written]:
         """End where the node's recorded messages end, and yield messages to write."""
         yield from self._keep_pose(None)
+        yield from (message for _, message, _ in self._doubtful)
         del self.sensed[len(self.sensed) - len(self._ahead[SENSING_STATE]) :]
+
+    def _not_begun(self, waiting: _Waiting) -> Iterator[Written]:
+        """Keep what a control period led to that the recorder missed, and look on."""
+        (_, message, decoded), *others = self._doubtful
+        self._doubtful = []
+        self._begins = None
+        self._come_to[SENSING_STATE] = stamp_of(decoded)
+        self._kept = True
+        self._waiting.append(waiting)
+        yield message
+        for take, message, decoded in others:
+            yield from take(message, decoded)
 
     def _come(self, topic: str, stamp: Stamp) -> Iterator[Written]:
         """Yield what was made up to where the node has come."""
@@ -127,4 +151,6 @@ class ReplayedSensing:
         """Yield the recorded pose unless it is made again."""
         if self._pose is not None and self._pose[0] != made_again:
             yield self._pose[1]
+        elif self._pose is not None:
+            self._doubtful.append((lambda message, _: iter([message]), self._pose[1], None))
         self._pose = None

@@ -91,6 +91,21 @@ def test_message_that_the_recorder_missed_is_made_again(bag, said, tmp_path):
     assert same(live, tmp_path / 'again')
 
 
+@pytest.mark.parametrize('pose_first', [False, True])
+@pytest.mark.parametrize('missed', [1, 2])
+def test_node_that_began_where_the_recorder_missed_it_is_kept(
+    bag, said, tmp_path, missed, pose_first
+):
+    # The recorder heard what the node said of its first control periods, but not these themselves.
+    live = with_sensing(bag, said, tmp_path / 'live', pose_first=pose_first, ticks_missed=missed)
+    assert min(readings_of(live)) <= 1.0
+    (comparison,) = run(live, out=tmp_path / 'again')
+    assert same(live, tmp_path / 'again')
+    # Nobody can know how it went on, before it began anew.
+    begins = [k for k, count in enumerate(readings_of(live)) if count <= 1.0 and k >= missed]
+    assert len(comparison.sensed) == (len(readings_of(live)) - begins[0] if begins else 0)
+
+
 def test_pose_is_made_where_the_state_alone_was_recorded(bag, said, tmp_path):
     states = [message for message in said if message.topic == STATE]
     run(with_sensing(bag, states, tmp_path / 'states'), out=tmp_path / 'again')

@@ -74,8 +74,8 @@ def said_by_a_node(bag, from_tick=0):
     return said
 
 
-def with_sensing(bag, said, out, begin=0, pose_first=False):
-    """Write a bag with what was said in it, from a time on [ns]."""
+def with_sensing(bag, said, out, begin=0, pose_first=False, ticks_missed=0):
+    """Write a bag with what was said in it, from a time on [ns], without some first ticks."""
     order = {STATE: 1, POSE: 0 if pose_first else 2}
     with BagReader(bag) as reader, BagWriter(out) as writer:
         for topic in reader.topics.values():
@@ -83,6 +83,8 @@ def with_sensing(bag, said, out, begin=0, pose_first=False):
         for topic, kind in KINDS.items():
             writer.add_topic(topic, kind)
         rows = [(m.log_time, 0, m.topic, m.data) for m in reader.messages()]
+        ticks = [row for row in rows if row[2] == TICKS]
+        rows = [row for row in rows if row not in ticks[:ticks_missed]]
         rows += [(m.log_time + DELAY, order[m.topic], m.topic, m.data) for m in said]
         for log_time, _, topic, data in sorted(rows, key=lambda row: row[:2]):
             if log_time >= reader.start_time + begin:
