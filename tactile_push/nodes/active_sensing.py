@@ -20,7 +20,11 @@ from tactile_push.nodes.ros.node_time import NodeTime
 from tactile_push.nodes.ros.parameters import declare, refusing
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED
-from tactile_push.parameters.active_sensing import ActiveSensingParameters, make_sensing
+from tactile_push.parameters.active_sensing import (
+    ActiveSensingParameters,
+    compile_sensing,
+    make_sensing,
+)
 from tactile_push.pipeline import Sensed, Sensing
 from tactile_push.pipeline.stamps import stamp_of
 
@@ -45,10 +49,9 @@ class ActiveSensingNode(Node):
         self._counted = Counter(ticks=0, readings=0)
         self._diagnostics = Diagnostics(self, self._health, lambda: self._counted)
         with refusing():
-            sensing, compiled = make_sensing(p), make_sensing(p)
+            sensing = make_sensing(p)
         with compiling(self, self._diagnostics):
-            for tick in range(2):  # compiles now what would be compiled at the first reading
-                compiled.tick(0.1 * tick, 0.0, 0.0, 0.0)
+            compile_sensing(p)
         self._sensing = Sensing(sensing, NodeTime(self).seconds)
         self._sensed: Sensed | None = None
         self._ticked_at = 0.0  # by a clock that cannot be set [s]

@@ -79,6 +79,13 @@ class ActiveSensingParameters(NodeParameters):
         return found if self.edge < 0 else found[self.edge : self.edge + 1]
 
 
+def compile_sensing(p: ActiveSensingParameters) -> None:
+    """Compile now, or load, what active sensing would compile at its first readings."""
+    sensing = make_sensing(p)
+    for tick in range(2):
+        sensing.tick(0.1 * tick, 0.0, 0.0, 0.0)
+
+
 def make_sensing(p: ActiveSensingParameters) -> 'ActiveSensing':
     """Make active sensing that knows nothing yet.
 

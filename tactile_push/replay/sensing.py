@@ -46,7 +46,7 @@ class ReplayedSensing:
         self._ahead: dict[str, list[tuple[Stamp, Written]]] = {topic: [] for topic in TOPICS}
         self._before: _Waiting | None = None  # the last control period before the node begins
         self._waiting: list[_Waiting] = []
-        self._pose: tuple[Stamp, Message] | None = None  # may belong to where the node begins
+        self._pose: tuple[Stamp, Message, Any] | None = None  # may belong to where the node begins
         self._kept = False  # whether a recorded state was kept
         # What was recorded since the node seems to begin, until that control period comes.
         self._doubtful: list[tuple[Callable[..., Iterator[Written]], Message, Any]] = []
@@ -118,7 +118,7 @@ class ReplayedSensing:
             return
         self._come_to[OBJECT_POSE] = stamp
         yield from self._keep_pose(None)
-        self._pose = stamp, message
+        self._pose = stamp, message, decoded
 
     def finish(self) -> Iterator[Written]:
         """End where the node's recorded messages end, and yield messages to write."""
@@ -152,5 +152,5 @@ class ReplayedSensing:
         if self._pose is not None and self._pose[0] != made_again:
             yield self._pose[1]
         elif self._pose is not None:
-            self._doubtful.append((lambda message, _: iter([message]), self._pose[1], None))
+            self._doubtful.append((self.pose, *self._pose[1:]))
         self._pose = None

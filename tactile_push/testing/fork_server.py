@@ -143,14 +143,12 @@ def _watch_a_copy(reported: socket.socket) -> None:
 
 def _load_machine_code() -> None:
     """Compute once what the plant and active sensing compile or load at their start."""
-    from tactile_push.parameters.active_sensing import ActiveSensingParameters, make_sensing
+    from tactile_push.parameters.active_sensing import ActiveSensingParameters, compile_sensing
     from tactile_push.parameters.sim_plant import SimPlantParameters, rig_config
     from tactile_push.simulation import Rig
 
     Rig(rig_config(SimPlantParameters())).step(0.0, 1.0)
-    sensing = make_sensing(ActiveSensingParameters())
-    for tick in range(2):
-        sensing.tick(0.1 * tick, 0.0, 0.0, 0.0)
+    compile_sensing(ActiveSensingParameters())
 
 
 if __name__ == '__main__':

@@ -17,6 +17,7 @@ from mcap.exceptions import EndOfFile
 from mcap.reader import NonSeekingReader, make_reader
 from mcap_ros2.decoder import DecoderFactory
 
+from support.waiting import wait_for
 from tactile_push.bags import BagWriter, schema_text
 
 JOINT_STATE = 'sensor_msgs/msg/JointState'
@@ -319,15 +320,6 @@ def test_error_in_the_block_keeps_what_was_written(tmp_path):
         raise ZeroDivisionError
     with open(tmp_path / 'bag' / 'bag_0.mcap', 'rb') as stream:
         assert len(list(make_reader(stream).iter_messages())) == 1
-
-
-def wait_for(condition, what):
-    """Return what the condition gives, once it holds."""
-    deadline = time.monotonic() + 60
-    while not (outcome := condition()):
-        assert time.monotonic() < deadline, f'waited a minute for {what}'
-        time.sleep(0.01)
-    return outcome
 
 
 def read_unfinished(path):

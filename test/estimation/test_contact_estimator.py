@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from support.pushed_block import OUTLINE, pushed
+from support.simulated_pushes import pushes_by_a_tip
 from tactile_push.control import PushLaw, finger_velocity
 from tactile_push.estimation.contact_estimator import ContactEstimator
 from tactile_push.estimation.prior import Prior
@@ -49,32 +49,21 @@ def random_block(seed, mu_c):
     return paper_block(theta, d, c, mu_c)
 
 
-def run_with_a_turning_disk(seed, steps, turning):
-    """Let the paper's law push with a disk that turns over its way: readings, v_x, spin, d."""
-    rng = np.random.default_rng(2000 + seed)
-    theta, d, c = rng.uniform(-0.4, 0.4), rng.uniform(-0.01, 0.01), rng.uniform(0.005, 0.036)
-    law, slider = PushLaw(0.05, 5.0, math.radians(-10.0)), Slider(OUTLINE, c)
-    rows, v_x = [], 0.0
-    for _ in range(steps + 1):
-        rows.append((theta + NOISE * rng.standard_normal(), v_x, turning * v_x, d))
-        v_x = finger_velocity(law.update(rows[-1][0]), BELT)
-        theta, d = pushed(slider, theta, d, math.inf, v_x, spin=turning * v_x)
-    return rows
-
-
 @pytest.mark.parametrize(('told', 'least', 'most'), [(True, 34, 40), (False, 0, 20)])
 def test_turning_of_the_disk_has_to_be_told(told, least, most):
     # Ten runs, four steps each. Told: fewer than 34 of 40 have a probability below 1 % at 95 %.
     inside = 0
     for seed in range(10):
-        rows = run_with_a_turning_disk(seed, 120, -13.0)
+        made = pushes_by_a_tip(seed, 120, turn=-13.0)
+        assert len(made) == 121
         estimator = ContactEstimator(BLOCK, NOISE)
-        for k, (theta, v_x, spin, d) in enumerate(rows):
-            found = estimator.push(theta, v_x, BELT, 0.1 if k else 0.0, spin if told else 0.0)
+        for k, one in enumerate(made):
+            spin = -13.0 * one.v_x if told else 0.0
+            found = estimator.push(one.theta, one.v_x, BELT, one.duration, spin)
             if told:
-                assert found.d.least <= d <= found.d.most
+                assert found.d.least <= one.d <= found.d.most
             if k in (30, 60, 90, 120):
-                inside += found.d.lower <= d <= found.d.upper
+                inside += found.d.lower <= one.d <= found.d.upper
     assert least <= inside <= most
 
 

@@ -86,10 +86,10 @@ def pushed(outline, sigma, beta, length, mu_c=math.inf, c=BLOCK_C, support=None,
     )
 
 
-def moved(outline, state, finger, velocity, duration, mu_c, c, support=None, r=FINGER):
+def moved(outline, state, finger, velocity, duration, mu_c, c, support=None, r=FINGER, spin=0.0):
     body, end = Body(outline.path(r), c, support), Finger(*friction_cone(mu_c), r)
     pose, *rest = move_finger(
-        Pose(*state[:3]), *state[3:5], *finger, *velocity, duration, body, end
+        Pose(*state[:3]), *state[3:5], *finger, *velocity, duration, body, end, spin
     )
     return (*pose, *rest)
 
@@ -252,18 +252,18 @@ def simulated(nearest, pose, velocity, length, twist, steps):
     return pose, left
 
 
-def both_ways(outline, nearest, sigma, beta, length, mu_c, c, steps=600, angle=0.4):
+def both_ways(outline, nearest, sigma, beta, length, mu_c, c, steps=600, angle=0.4, spin=0.0):
     pose = (*at_contact(outline, sigma, angle), angle)
     velocity = heading(outline, sigma, beta, angle)
-    state = moved(outline, (*pose, sigma, True), (0.0, 0.0), velocity, length, mu_c, c)
-    expected, left = simulated(
-        nearest,
-        pose,
-        velocity,
-        length,
-        lambda v_p, x_c, normal, _: twist_by_the_paper(v_p, x_c, normal, mu_c, c),
-        steps,
-    )
+    state = moved(outline, (*pose, sigma, True), (0.0, 0.0), velocity, length, mu_c, c, spin=spin)
+
+    def twist(v_p, x_c, normal, _):
+        # The finger's material at the contact, at r n from the disk's centre: v + spin z x r n.
+        (v_x, v_y), (n_x, n_y) = v_p, normal
+        v_p = v_x - spin * FINGER * n_y, v_y + spin * FINGER * n_x
+        return twist_by_the_paper(v_p, x_c, normal, mu_c, c)
+
+    expected, left = simulated(nearest, pose, velocity, length, twist, steps)
     return state, expected, left
 
 
@@ -1287,15 +1287,6 @@ def test_a_finger_comes_along_an_edge_and_pushes_its_next_one():
     assert state[4:] == (True, STICK)
 
 
-def moved_turning(outline, state, velocity, duration, mu_c, spin, c=BLOCK_C, support=None):
-    body = Body(outline.path(FINGER), c, support)
-    pose, *rest = move_finger(
-        Pose(*state[:3]), *state[3:5], 0.0, 0.0, *velocity, duration, body,
-        Finger(*friction_cone(mu_c), FINGER), spin,
-    )  # fmt: skip
-    return (*pose, *rest)
-
-
 @pytest.mark.parametrize('spin', [-13.0, 4.0, 40.0])  # [rad] a metre of the finger's way
 @pytest.mark.parametrize(
     ('outline', 'nearest', 'sigma', 'beta', 'mu_c'),
@@ -1310,18 +1301,8 @@ def moved_turning(outline, state, velocity, duration, mu_c, spin, c=BLOCK_C, sup
     ],
 )
 def test_a_turning_disk_pushes_as_simulated_in_the_plane(outline, nearest, sigma, beta, mu_c, spin):
-    pose = (*at_contact(outline, sigma, 0.4), 0.4)
-    velocity = heading(outline, sigma, beta, 0.4)
+    state, expected, left = both_ways(outline, nearest, sigma, beta, 0.01, mu_c, BLOCK_C, spin=spin)
 
-    state = moved_turning(outline, (*pose, sigma, True), velocity, 0.01, mu_c, spin)
-
-    def twist(v_p, x_c, normal, _):
-        # The finger's material at the contact, at r n from the disk's centre: v + spin z x r n.
-        (v_x, v_y), (n_x, n_y) = v_p, normal
-        v_p = v_x - spin * FINGER * n_y, v_y + spin * FINGER * n_x
-        return twist_by_the_paper(v_p, x_c, normal, mu_c, BLOCK_C)
-
-    expected, left = simulated(nearest, pose, velocity, 0.01, twist, 600)
     assert not left
     assert state[2] == pytest.approx(expected[2], rel=0, abs=ANGLE)
     assert state[:2] == pytest.approx(expected[:2], rel=0, abs=PLACE)
@@ -1333,7 +1314,8 @@ def test_disk_that_turns_rolls_on_a_sticking_edge(sigma, beta, spin, c):
     # Both surfaces pass the same length: d changes by -r (theta - psi).
     start = (*at_contact(BLOCK, sigma), 0.0, sigma, True)
 
-    state = moved_turning(BLOCK, start, heading(BLOCK, sigma, beta), 0.01, math.inf, spin, c)
+    velocity = heading(BLOCK, sigma, beta)
+    state = moved(BLOCK, start, (0.0, 0.0), velocity, 0.01, math.inf, c, spin=spin)
 
     if state[5] == STICK and 0.0 < state[3] < 0.05:
         assert state[3] - sigma == pytest.approx(-FINGER * (state[2] - spin * 0.01), abs=1e-12)
@@ -1347,7 +1329,9 @@ def test_disk_that_turns_one_way_mirrors_the_disk_that_turns_the_other_way(suppo
         sigma = 0.025 + side * 0.006
         start = (*at_contact(BLOCK, sigma), 0.0, sigma, True)
         velocity = side * 0.3, 1.0
-        x, y, *end = moved_turning(BLOCK, start, velocity, 0.02, 0.4, side * 20.0, support=points)
+        x, y, *end = moved(
+            BLOCK, start, (0.0, 0.0), velocity, 0.02, 0.4, BLOCK_C, points, spin=side * 20.0
+        )
         ends.append((side * x, y, side * end[0], side * (end[1] - 0.025)))
     assert ends[0] == pytest.approx(ends[1], rel=0, abs=1e-8)
     assert ends[0][2] != 0.0

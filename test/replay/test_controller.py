@@ -9,23 +9,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from support.bag_clock import BEGIN, EPOCH, PERIOD, seconds, stamp_of
 from tactile_push.control import tick_values
 from tactile_push.parameters.push_controller import PushControllerParameters, make_control
-from tactile_push.pipeline.stamps import epoch_of, seconds_since
 from tactile_push.replay.controller import ReplayedController
 
 CHECKED = settings(derandomize=True, deadline=None, max_examples=150)
-BEGIN = 1_795_000_000  # some day in 2026 [s]
-EPOCH = epoch_of(BEGIN)
-PERIOD = 100_000_000  # [ns]
-
-
-def stamp_of(nanoseconds):
-    return divmod(nanoseconds, 10**9)
-
-
-def seconds(nanoseconds):
-    return seconds_since(EPOCH, *stamp_of(nanoseconds))
 
 
 def named_values(values, sec, nanosec):

@@ -2,22 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Without a record of the controller the law ticks by itself."""
 
+from support.bag_clock import BEGIN, EPOCH, PERIOD, seconds, stamp_of
 from tactile_push.control import INACTIVE, PUSHING, STATES
 from tactile_push.parameters.push_controller import PushControllerParameters, make_control
-from tactile_push.pipeline.stamps import epoch_of, seconds_since
 from tactile_push.replay.own_ticks import OwnTicks
-
-BEGIN = 1_795_000_000  # some day in 2026 [s]
-EPOCH = epoch_of(BEGIN)
-PERIOD = 100_000_000  # [ns]
-
-
-def stamp_of(nanoseconds):
-    return divmod(nanoseconds, 10**9)
-
-
-def seconds(nanoseconds):
-    return seconds_since(EPOCH, *stamp_of(nanoseconds))
 
 
 def test_without_a_record_the_law_ticks_at_its_own_rate_from_the_first_contact_on():

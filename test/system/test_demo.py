@@ -13,6 +13,7 @@ import pytest
 
 from support.expected import FIGURE_8_END, FIGURE_8_SETTLE_STEP
 from support.interface_checks import topics_as_declared
+from support.waiting import wait_for
 from tactile_push.bags import BagReader
 from tactile_push.cli import main
 from tactile_push.interface import CLOCK, PARAMETER_EVENTS, RECORDED
@@ -92,10 +93,9 @@ def test_interrupted_demo_ends_in_silence_and_leaves_no_process(
     _, said = demo.communicate(timeout=60)
     assert demo.returncode == status
     assert 'Traceback' not in said
-    deadline = time.monotonic() + 60.0  # a process that has ended may not be gone yet
-    while any(Path(f'/proc/{pid}').exists() for pid in descendants):
-        assert time.monotonic() < deadline, 'a process is left'
-        time.sleep(0.01)
+    wait_for(  # a process that has ended may not be gone yet
+        lambda: not any(Path(f'/proc/{pid}').exists() for pid in descendants), 'all to be gone'
+    )
 
 
 def _descendants(pid: int) -> list[int]:

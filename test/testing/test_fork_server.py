@@ -4,17 +4,16 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
 pytest.importorskip('rclpy')
 
+from support.waiting import PATIENCE, wait_for
 from tactile_push.testing import fork_server
 from tactile_push.testing.fork_server import fork_node
 
-PATIENCE = 60.0  # a bound on hanging, not an expectation [s]
 SPIN = ['--ros-args', '--log-level', 'fatal']
 
 
@@ -38,14 +37,6 @@ def node(log, environment):
     yield process
     process.kill()
     process.wait(PATIENCE)
-
-
-def wait_for(condition):
-    """Wait until a condition holds."""
-    deadline = time.monotonic() + PATIENCE
-    while not condition():
-        assert time.monotonic() < deadline, 'the condition did not come true'
-        time.sleep(0.02)
 
 
 def has_ended(pid):
@@ -82,7 +73,9 @@ def test_signal_ends_the_node_as_the_node_wants(node, log):
     # Like everybody's, its own handler is there once it has begun to run.
     signals = Path(f'/proc/{node.pid}/status')
     caught = 1 << (signal.SIGTERM - 1)
-    wait_for(lambda: int(signals.read_text().split('SigCgt:')[1].split()[0], 16) & caught)
+    wait_for(
+        lambda: int(signals.read_text().split('SigCgt:')[1].split()[0], 16) & caught, 'the handler'
+    )
     assert node.poll() is None
     node.send_signal(signal.SIGTERM)
     assert node.wait(PATIENCE) == 0
@@ -94,7 +87,7 @@ def test_signal_ends_the_node_as_the_node_wants(node, log):
 def test_killed_node_is_gone_with_the_status_of_the_signal(node):
     node.kill()
     assert node.wait(PATIENCE) == -signal.SIGKILL
-    wait_for(lambda: has_ended(node.pid))
+    wait_for(lambda: has_ended(node.pid), 'its end')
 
 
 def test_wait_has_an_end(node):
@@ -115,7 +108,7 @@ def test_server_ends_with_whoever_started_it(tmp_path):
     )
     done = subprocess.run([sys.executable, '-c', program], capture_output=True, timeout=PATIENCE)
     assert (done.returncode, done.stderr) == (0, b'')
-    wait_for(lambda: has_ended(int(done.stdout)))
+    wait_for(lambda: has_ended(int(done.stdout)), 'its end')
 
 
 def test_server_that_has_ended_is_said(log, environment, monkeypatch):

@@ -9,7 +9,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -19,17 +18,8 @@ rclpy = pytest.importorskip('rclpy')
 
 from rclpy.context import Context  # noqa: E402
 
+from support.waiting import PATIENCE, wait_for  # noqa: E402
 from tactile_push.testing.processes import DOMAINS, NodeProcesses, loopback, yaml_value  # noqa: E402
-
-PATIENCE = 60.0  # [s]
-
-
-def wait_for(condition):
-    """Wait until a condition holds."""
-    deadline = time.monotonic() + PATIENCE
-    while not condition():
-        assert time.monotonic() < deadline, 'the condition did not come true'
-        time.sleep(0.02)
 
 
 def start_program(nodes, name, program):
@@ -69,7 +59,7 @@ def test_nodes_talk_over_the_loopback_and_nothing_else(tmp_path):
         context = Context()
         rclpy.init(context=context, domain_id=nodes.domain)
         observer = rclpy.create_node('observer', context=context)
-        wait_for(lambda: 'contact_geometry' in observer.get_node_names())
+        wait_for(lambda: 'contact_geometry' in observer.get_node_names(), 'the node')
         addresses = {address.partition(':')[0] for address in sockets_of(process)}
         mapped = Path(f'/proc/{process.pid}/maps').read_text()
         observer.destroy_node()
@@ -164,7 +154,7 @@ def test_node_gets_its_parameters_and_ends_with_the_block(tmp_path):
         context = Context()
         rclpy.init(context=context, domain_id=nodes.domain)
         observer = rclpy.create_node('observer', context=context)
-        wait_for(lambda: 'contact_geometry' in observer.get_node_names())
+        wait_for(lambda: 'contact_geometry' in observer.get_node_names(), 'the node')
         observer.destroy_node()
         rclpy.shutdown(context=context)
         survivor = nodes.running['contact_geometry']
@@ -185,7 +175,7 @@ def test_all_are_interrupted_even_after_an_exception(tmp_path):
     )
     with pytest.raises(KeyError, match='wrong'), NodeProcesses(tmp_path) as nodes:
         processes = [start_program(nodes, name, program) for name in ('one', 'two')]
-        wait_for(lambda: all('up' in nodes.log(name).read_text() for name in nodes.running))
+        wait_for(lambda: all('up' in nodes.log(name).read_text() for name in nodes.running), 'both')
         raise KeyError('wrong')
     assert [process.returncode for process in processes] == [0, 0]
     assert nodes.log('one').read_text() == 'up\ninterrupted\n'
@@ -201,7 +191,7 @@ def test_process_that_does_not_listen_is_killed(tmp_path, monkeypatch):
     )
     with NodeProcesses(tmp_path) as nodes:
         process = start_program(nodes, 'deaf', program)
-        wait_for(lambda: 'up' in nodes.log('deaf').read_text())
+        wait_for(lambda: 'up' in nodes.log('deaf').read_text(), 'the process')
     assert process.returncode == -signal.SIGKILL
 
 
