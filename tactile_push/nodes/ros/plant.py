@@ -1,0 +1,272 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""A rig as a node, in place of the hardware: finger velocity in, sensor bytes out."""
+
+import math
+import time
+from abc import abstractmethod
+from collections import Counter
+from collections.abc import Callable
+
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import PoseStamped, TwistStamped
+from rclpy.clock import Clock as NodeClock
+from rclpy.clock_type import ClockType
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
+from visualization_msgs.msg import MarkerArray
+
+from tactile_push.devices import Sentence, encode
+from tactile_push.interface import (
+    CLOCK,
+    COMMAND,
+    CONTACT,
+    JOINT_STATES,
+    MARKERS,
+    TOPICS,
+    TRUE_POSE,
+    TRUE_STATE,
+)
+from tactile_push.nodes.ros.compiling import compiling
+from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
+from tactile_push.nodes.ros.markers import rig_markers
+from tactile_push.nodes.ros.messages import publish
+from tactile_push.nodes.ros.parameters import ConfigurationError, declare, refusing
+from tactile_push.nodes.ros.qos import PUBLISHED
+from tactile_push.parameters.sim_plant import SimPlantParameters, faults, faults_on
+from tactile_push.pipeline.messages import joint_state_fields, pose_fields
+from tactile_push.simulation import Readout, Rig, serve
+from tactile_push.simulation.pace import Pace
+from tactile_push.tactile import Reading
+
+FRESHEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+MARKER_RATE = 10.0  # [Hz]; fluent enough to the eye
+REPEAT_PERIOD = 0.01  # of time and reading while time stands still [s]; late by no more; picked
+LOOK_PERIOD = 1.0  # at who commands [s]; as often as diagnostics report it
+LONGEST_STEP = 0.1  # a late timer moves the real-time rig no further at once [s]: a control period
+
+
+class PlantNode(Node):
+    """Node: belt, object, finger and sensor of a rig that a subclass makes."""
+
+    NAME: str
+    PARAMETERS: type[SimPlantParameters]
+
+    @staticmethod
+    @abstractmethod
+    def rig_maker(p: SimPlantParameters) -> Callable[[], Rig]:
+        """Return what makes the rig and compiles what it needs; ValueError if there is no rig."""
+
+    def __init__(self) -> None:
+        super().__init__(self.NAME)
+        self._settings = p = declare(self, self.PARAMETERS, self._take_parameters, faults)
+        if p.real_time_factor != 1.0 and not p.publish_clock:
+            raise ConfigurationError(
+                'parameter real_time_factor: expected 1.0 unless publish_clock is true, '
+                f'got {p.real_time_factor}'
+            )
+        try:
+            make_rig, beginning = self.rig_maker(p), faults(p)
+        except ValueError as error:
+            raise ConfigurationError(str(error)) from None
+        with refusing('device'):
+            self._device = serve(p.device)
+        self._counts: Counter[str] = Counter({'readings sent': 0, 'commands': 0})
+        self._diagnostics = Diagnostics(self, self._health, lambda: self._counts)
+        with compiling(self, self._diagnostics):  # which a refusal above need not wait for
+            self._rig = make_rig()
+        self._readout = Readout(beginning.sensor, p.seed)
+        self._period = 1.0 / p.sensor_rate
+        self._pace = Pace(p.real_time_factor, 1.0 / p.control_rate, p.command_timeout)
+        self._steps = 0
+        self._sequence = 0
+        self._awaited: Reading | None = None  # the last reading, if a contact has to follow
+        self._time = 0.0
+        self._last_wall = time.monotonic()
+        self._last_clock = self._last_wall
+        self._v_x = 0.0
+        self._last_command: float | None = None
+        self._commanders = 0
+        self._joint_states = self.create_publisher(JointState, JOINT_STATES, PUBLISHED)
+        self._object_pose = self.create_publisher(PoseStamped, TRUE_POSE, PUBLISHED)
+        self._state = self.create_publisher(JointState, TRUE_STATE, PUBLISHED)
+        self._markers = self.create_publisher(MarkerArray, MARKERS, 10)
+        self._clock_publisher = None
+        if p.publish_clock:
+            self._clock_publisher = self.create_publisher(Clock, CLOCK, 10)
+            self.create_subscription(PoseStamped, CONTACT, self._on_contact, FRESHEST)
+        self.create_subscription(TwistStamped, COMMAND, self._on_command, 10)
+        steady_clock = NodeClock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(self._period / p.real_time_factor, self._on_timer, clock=steady_clock)
+        self.create_timer(LOOK_PERIOD, self._count_commanders, clock=steady_clock)
+
+    def destroy_node(self) -> None:
+        """Stop serving the device and end."""
+        self._device.close()
+        super().destroy_node()
+
+    def _take_parameters(self, settings: SimPlantParameters) -> None:
+        self._settings = settings
+        self._rig.faults = faults(settings)
+        self._readout.sensor = self._rig.faults.sensor
+
+    def _count_commanders(self) -> None:
+        self._commanders = self.count_publishers(COMMAND)
+
+    def _on_command(self, message: TwistStamped) -> None:
+        self._counts['commands'] += 1
+        v_x = message.twist.linear.x
+        if not math.isfinite(v_x):
+            self._counts['commands not finite'] += 1
+            self._v_x = 0.0  # whoever sends this is not to be trusted with a moving finger
+        else:
+            fastest = self._settings.max_speed
+            self._v_x = min(max(v_x, -fastest), fastest)
+            self._counts['commands too fast'] += self._v_x != v_x
+            self._last_command = self._now()
+            self._pace.command(_seconds(message), self._time)
+        if self._clock_publisher is None:
+            self._step(self._real_time())
+        else:
+            self._on_timer()
+
+    def _on_contact(self, message: PoseStamped) -> None:
+        self._pace.contact(_seconds(message))
+        self._on_timer()
+
+    def _on_timer(self) -> None:
+        if self._clock_publisher is None:
+            self._step(self._real_time())
+            self._read()
+            return
+        wall = time.monotonic()
+        was_commanded = self._pace.commanded
+        if self._pace.may_reach(self._time + self._period, self._period, wall):
+            if was_commanded and not self._pace.commanded:
+                self._v_x = 0.0  # the command is overdue
+            self._last_clock = wall
+            self._step(self._period)
+            self._read()
+        elif wall - self._last_clock > REPEAT_PERIOD:
+            # Time may stand still because a message was lost or a reading got an old stamp.
+            self._last_clock = wall
+            self._publish_clock()
+            if self._awaited is not None and self._pace.contact_overdue:
+                self._send(self._awaited)
+
+    def _now(self) -> float:
+        """Return the time by which a command ages, which goes on while the rig is held up."""
+        return time.monotonic() if self._clock_publisher is None else self._time
+
+    def _real_time(self) -> float:
+        """Return by how much the rig has to move: the time since the last call, within bounds."""
+        wall = time.monotonic()
+        elapsed, self._last_wall = wall - self._last_wall, wall
+        return min(elapsed, LONGEST_STEP)
+
+    def _step(self, step: float) -> None:
+        """Move belt, object and finger, and publish where they are."""
+        if self._last_command is None:
+            self._rig.step(0.0, step, belt_running=False)
+        else:
+            if self._now() - self._last_command >= self._settings.command_timeout:
+                self._v_x = 0.0
+            self._rig.step(self._v_x, step)
+        self._steps += 1
+        if self._clock_publisher is None:
+            self._time += step
+        else:  # to the nanosecond: a sum would drift away from the timers that follow the clock
+            self._time = self._steps * self._period
+        self._publish_clock()
+        stamp = self._stamp()
+        joints = dict(zip(TOPICS[JOINT_STATES].field_names, self._rig.joints, strict=True))
+        publish(self._joint_states, joint_state_fields((stamp.sec, stamp.nanosec), joints))
+        self._publish_truth(stamp)
+        every = max(1, round(self._settings.sensor_rate / MARKER_RATE))
+        if self._steps % every == 0 and self._markers.get_subscription_count():
+            self._markers.publish(rig_markers(self._rig, stamp))
+
+    def _read(self) -> None:
+        """Read the sensor and send what it says."""
+        self._awaited = None
+        for sample in self._readout.read(self._rig.reading(), self._time):
+            if sample.reading is None:
+                self._sequence += 1  # as of a sentence that never arrives
+                self._counts['readings lost'] += 1
+                continue
+            self._send(sample.reading)
+            if sample.likely:
+                self._awaited = sample.reading
+                self._pace.reading(self._time)
+
+    def _send(self, reading: Reading) -> None:
+        self._device.send(encode(Sentence(self._sequence, reading)))
+        self._sequence += 1
+        self._counts['readings sent'] += 1
+
+    def _stamp(self) -> Time:
+        if self._clock_publisher is None:
+            return self.get_clock().now().to_msg()
+        sec, nanosec = divmod(round(self._time * 1e9), 10**9)
+        return Time(sec=sec, nanosec=nanosec)
+
+    def _publish_clock(self) -> None:
+        if self._clock_publisher is not None:
+            self._clock_publisher.publish(Clock(clock=self._stamp()))
+
+    def _publish_truth(self, stamp: Time) -> None:
+        rig = self._rig
+        in_disk = rig.object_in_finger_disk
+        at = (stamp.sec, stamp.nanosec)
+        publish(self._object_pose, pose_fields(at, in_disk.x, in_disk.y, in_disk.angle))
+        fields = {
+            'theta': rig.theta if rig.touching else math.nan,
+            'd': rig.d if rig.touching else math.nan,
+            'phi': rig.phi,
+            'mode': float(rig.mode),
+            'v_x': rig.v_x,
+            'v_x_commanded': self._v_x,
+            'finger_x': rig.finger_x,
+            'belt_speed': rig.v_y,
+            'belt_travel': rig.finger_y,
+        }
+        publish(self._state, joint_state_fields(at, fields))
+
+    def _health(self) -> Health:
+        rig, faulty = self._rig, ', '.join(faults_on(self._settings))
+        level, message = self._judgement()
+        if faulty:
+            level = max(level, WARN)
+            message = f'{message}, with {faulty}'
+        values = {
+            'time [s]': round(self._time, 3),
+            'contact': rig.mode_name if rig.touching else 'none',
+            'finger x [m]': rig.finger_x,
+            'v_x [m/s]': rig.v_x,
+            'v_x commanded [m/s]': self._v_x,
+            'belt speed [m/s]': rig.v_y,
+            'faults': faulty or 'none',
+            'publishers of finger/cmd_vel': self._commanders,
+        }
+        return Health(level, message, values)
+
+    def _judgement(self) -> tuple[bytes, str]:
+        if self._last_command is not None:
+            if self._now() - self._last_command >= self._settings.command_timeout:
+                return ERROR, 'no command, finger stopped'
+            if self._rig.at_workspace_limit:
+                return ERROR, 'finger at its workspace limit'
+        if self._commanders > 1:
+            return WARN, 'several publishers of finger/cmd_vel'
+        if self._last_command is None:
+            return OK, 'belt stands, waiting for the first command'
+        if not self._rig.touching:
+            return WARN, 'finger does not touch the object'
+        return OK, 'pushing'
+
+
+def _seconds(message: PoseStamped | TwistStamped) -> float:
+    stamp = message.header.stamp  # rclpy's Time takes no negative ones
+    return stamp.sec + stamp.nanosec * 1e-9
