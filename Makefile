@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-# make demo: run the demonstration; make test: run all tests; make test-quick: unit tests alone;
+# make demo: run the demonstration; make test: run all tests; make test-quick: quick unit tests;
 # make lint: check without testing; make docs: build the documentation; make bench: measure speeds;
 # make faults: inject every fault; make fuzz: spoil every input; make soak: run for long.
 # Each sets up .venv the first time.
@@ -28,7 +28,7 @@ test: lint
 	$(PYTEST)
 
 test-quick: $(TEST_READY)
-	$(PYTEST) $(GRAPH:%=--ignore=%)
+	$(PYTEST) -m 'not slow' $(GRAPH:%=--ignore=%)
 
 docs: $(TEST_READY)
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet docs out/docs

@@ -29,6 +29,7 @@ def test_links_of_the_readme_lead_to_files():
     assert [link for link in links if not (ROOT / link).exists()] == []
 
 
+@pytest.mark.slow
 def test_documentation_builds_without_a_warning(tmp_path: Path):
     for package in ('sphinx', 'myst_parser', 'sphinx_rtd_theme'):
         if importlib.util.find_spec(package) is None:

@@ -26,6 +26,7 @@ def without_ros():
     )
 
 
+@pytest.mark.slow
 def test_commands_that_need_no_ros_run_without_it(without_ros, tmp_path):
     pytest.importorskip('plotly', reason='pip install plotly')
     bag = str(TREE / 'test/data/stops')
@@ -45,6 +46,7 @@ def test_commands_that_need_no_ros_run_without_it(without_ros, tmp_path):
         assert done.returncode == 0, (words, done.stderr)
 
 
+@pytest.mark.slow
 def test_library_is_imported_without_ros(without_ros):
     parts = [part for part in PARTS if part not in OF_POSIX]
     assert {'mechanics', 'bags', 'figures', 'report', 'simulation'} <= set(parts)

@@ -189,6 +189,7 @@ def faults_of(thing):
     return [text for code, text in errors if code in checks]
 
 
+@pytest.mark.slow
 def test_public_names_are_documented_to_the_last_argument():
     parts = set(PARTS) - {'replay'}
     things = {name: thing for part in parts for name, thing in documented(part).items()}

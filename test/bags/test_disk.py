@@ -63,6 +63,7 @@ def test_whoever_fills_a_file_does_not_wait_for_the_disk(tmp_path, monkeypatch):
     assert (tmp_path / 'file').read_bytes() == b''.join(PIECES[:10])
 
 
+@pytest.mark.slow
 def test_what_waits_for_the_disk_is_bounded(tmp_path, monkeypatch):
     stuck = threading.Event()
     monkeypatch.setattr(os, 'fdatasync', lambda descriptor: stuck.wait(60))

@@ -67,6 +67,7 @@ def try_to_read(path):
         return None
 
 
+@pytest.mark.slow
 def test_one_wrong_byte_anywhere_is_never_silent_and_never_believed(tmp_path):
     for place in (*range(8), *random.Random(6).sample(range(8, len(WHOLE)), 1000)):
         result = try_to_read(write(tmp_path / 'file.mcap', changed(WHOLE, place)))
@@ -113,6 +114,7 @@ def damaged(data, damages):
     return data
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('kind', KINDS)
 @settings(deadline=None)
 @given(st.lists(DAMAGE, min_size=1, max_size=4))

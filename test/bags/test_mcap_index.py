@@ -6,6 +6,7 @@ import io
 import random
 import struct
 
+import pytest
 from mcap.writer import Writer
 
 from support.bag_damage import (
@@ -22,6 +23,7 @@ from support.bag_files import mcap_bytes
 from tactile_push.bags import BagReader
 
 
+@pytest.mark.slow
 def test_wrong_index_is_made_anew(tmp_path):
     (summary_start,) = struct.unpack_from('<Q', WHOLE, len(WHOLE) - 8 - 20)
     for place in random.Random(5).sample(range(summary_start, len(WHOLE)), 200):

@@ -41,6 +41,7 @@ def test_bag_cut_off_at_every_byte_of_its_last_chunk(tmp_path):
     assert f'about {seconds:.3f} s at the end cannot be read' in line
 
 
+@pytest.mark.slow
 def test_bag_cut_off_behind_its_last_chunk_lacks_nothing(tmp_path):
     for cut in (*range(CHUNKS[-1][1], len(WHOLE), 10), len(WHOLE) - 1):
         found, warnings = read(write(tmp_path / 'file.mcap', WHOLE[:cut]))
@@ -49,6 +50,7 @@ def test_bag_cut_off_behind_its_last_chunk_lacks_nothing(tmp_path):
     assert 'no message is missing' in warnings[0]
 
 
+@pytest.mark.slow
 def test_bag_cut_off_at_a_thousand_random_places(tmp_path):
     places = random.Random(1)
     for cut in (places.randrange(len(WHOLE)) for _ in range(1000)):

@@ -299,6 +299,7 @@ print(count, peak)
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('kind', ['whole', 'cut off', 'without chunks', 'compressed'])
 def test_memory_does_not_grow_with_the_bag(tmp_path, kind):
     noise = random.Random(0).randbytes(4_000_000)

@@ -4,6 +4,7 @@
 
 import random
 
+import pytest
 import zstandard
 from mcap.writer import CompressionType
 
@@ -11,6 +12,7 @@ from support.bag_damage import read, write
 from support.bag_files import mcap_bytes, some_messages
 
 
+@pytest.mark.slow
 def test_compressed_file_cut_off(tmp_path):
     written = some_messages(10_000)
     mcap = mcap_bytes(written, chunk_size=2_000, compression=CompressionType.NONE)

@@ -356,6 +356,7 @@ while True:
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('bounds', [(0.0, 0.0), *([(0.2, 3.0)] * 4)])
 def test_killed_process_loses_less_than_a_second(tmp_path, bounds):
     lifetime = random.uniform(*bounds)
@@ -407,6 +408,7 @@ def test_what_is_flushed_is_put_onto_the_disk(tmp_path, monkeypatch):
     assert synced[-1] == path.stat().st_size
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('compression', ['zstd', 'lz4', 'none'])
 @pytest.mark.parametrize('split', [{}, {'max_bytes': 8_000}, {'max_duration': 1.0}])
 def test_every_compression_and_split_is_read_by_rosbags(tmp_path, compression, split):

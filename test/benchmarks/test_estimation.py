@@ -31,6 +31,7 @@ def named(name):
     return next(group for group in groups.GROUPS if group.name == name)
 
 
+@pytest.mark.slow
 def test_a_short_run_of_a_few_groups_prints_and_writes(script, monkeypatch, tmp_path, capsys):
     chosen = (named('figure 8, sticks, 0.2°'), named('mu_c 0'), named('any edge, 8 x 2 cm'))
     for module in (script, study):

@@ -356,6 +356,7 @@ def test_the_table_has_every_file_and_model(bench, main, write):
     assert 'mu_c = 0.300' in out
 
 
+@pytest.mark.slow
 def test_the_script_runs_by_its_path(tmp_path):
     done = subprocess.run([sys.executable, SCRIPT, tmp_path], capture_output=True, text=True)
 

@@ -18,6 +18,7 @@ from tactile_push.cli.arguments import Refused
 FULL = Path('/dev/full')
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not FULL.exists(), reason='needs /dev/full')
 @pytest.mark.parametrize(
     'arguments',
@@ -38,6 +39,7 @@ def test_full_standard_output_is_said_and_is_no_difference(arguments):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     'command',
     [
@@ -55,6 +57,7 @@ def test_closed_pipe_is_silent_and_is_no_difference(command):
     assert (done.returncode, done.stderr) == (141, '')
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('command', ['replay', 'estimate'])
 def test_bag_that_cannot_be_written_is_not_left_behind(command, tmp_path: Path):
     done = run_command(command, BAG, '-o', tmp_path / 'again', preexec_fn=few_bytes)
@@ -78,6 +81,7 @@ def test_json_goes_to_what_is_no_file(tmp_path: Path):
     assert done.stdout.startswith('{"fingers"')
 
 
+@pytest.mark.slow
 def test_error_is_one_line_where_there_is_no_terminal(tmp_path: Path):
     empty = tmp_path / 'empty'
     shutil.copytree(BAG, empty)

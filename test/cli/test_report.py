@@ -96,6 +96,7 @@ def test_damage_is_told_on_the_page_and_beside_it(bag, tmp_path, capsys):
     assert f'<p>{told}</p>' in (tmp_path / 'page.html').read_text()
 
 
+@pytest.mark.slow
 def test_page_that_cannot_be_written_leaves_the_old_one(tmp_path: Path):
     page = tmp_path / 'page.html'
     page.write_text('old')

@@ -700,6 +700,7 @@ def in_a_shell(*arguments):
     )
 
 
+@pytest.mark.slow
 def test_the_command_prints_json_in_a_process_of_its_own(simulate):
     done = in_a_shell('--steps', '12', '--json', '-')
 
@@ -707,6 +708,7 @@ def test_the_command_prints_json_in_a_process_of_its_own(simulate):
     assert strict(done.stdout)['theta'] == pytest.approx(simulate('--steps', 12)['theta'])
 
 
+@pytest.mark.slow
 def test_the_command_refuses_a_missing_file_in_a_process_of_its_own(tmp_path):
     done = in_a_shell('--object', str(tmp_path / 'nothing.json'))
 

@@ -288,6 +288,7 @@ def mirrored(found):
     return Difference(found.key, found.where, found.b, found.a, found.distance)
 
 
+@pytest.mark.slow
 @settings(max_examples=50, deadline=None)
 @given(ROWS, ROWS)
 def test_comparison_is_symmetric(rows_a, rows_b):
@@ -306,6 +307,7 @@ def test_comparison_is_symmetric(rows_a, rows_b):
         assert found.largest.distance == again.largest.distance
 
 
+@pytest.mark.slow
 @settings(max_examples=50, deadline=None)
 @given(ROWS, st.data())
 def test_a_single_change_is_found_exactly(rows, data):

@@ -95,6 +95,7 @@ def steady(start, count, topics=('/a', '/b')):
     return [(topic, start + k) for k in range(count) for topic in topics]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ('a', 'b'),
     [

@@ -113,6 +113,7 @@ def test_idle_pseudo_terminal_gives_no_bytes_soon(line, devices):
     assert shortest_idle_read(devices(line[1])) < 0.2
 
 
+@pytest.mark.slow
 def test_idle_tcp_connection_gives_no_bytes_soon(listener, devices):
     server, url = listener
     device = devices(url)
@@ -333,6 +334,7 @@ class Rfc2217Server(threading.Thread):
             # The client has gone.
 
 
+@pytest.mark.slow
 def test_device_of_rfc_2217_is_read_and_its_end_noticed(listener):
     server, url = listener
     data = bytes(range(256))

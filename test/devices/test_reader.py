@@ -172,6 +172,7 @@ def test_only_a_fresh_reading_makes_the_waits_short_again(device, log, readers, 
     assert sensor.reconnects == 5
 
 
+@pytest.mark.slow
 def test_waits_are_waited(device, log, readers):
     device.opening += [OSError('not there')] * 3
     device.script.put(line(0))
@@ -181,6 +182,7 @@ def test_waits_are_waited(device, log, readers):
     assert time.monotonic() - began > 0.1 + 0.2 + 0.4
 
 
+@pytest.mark.slow
 def test_peer_that_accepts_and_hangs_up_is_asked_less_and_less_often(log, readers):
     with socket.create_server(('127.0.0.1', 0)) as server:
         sensor = readers(f'socket://127.0.0.1:{server.getsockname()[1]}')
@@ -264,6 +266,7 @@ def test_stop_lets_go_of_a_silent_device_at_once_and_it_can_be_started_again(dev
     sensor.stop()
 
 
+@pytest.mark.slow
 def test_stop_closes_a_tcp_connection_although_pyserial_sleeps_after_that(log, readers):
     took = []
     with socket.create_server(('127.0.0.1', 0)) as server:

@@ -125,6 +125,7 @@ def counts(stream):
     )
 
 
+@pytest.mark.slow
 @given(text=texts, cuts=st.lists(st.integers(0, 1500), max_size=12))
 @example(text=b'x' * 100 + line(0, 10), cuts=[95])
 @example(text=b'$' + b'x' * 80 + b'\r\n' + line(0, 10), cuts=[81, 82])

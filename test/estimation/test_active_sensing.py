@@ -230,6 +230,7 @@ TICKS = st.lists(SENSIBLE | st.tuples(st.floats(-1e9, 1e9), ANYTHING, ANYTHING, 
 TRIANGLE = [[-0.02, -0.02], [0.04, -0.02], [-0.02, 0.04]]
 
 
+@pytest.mark.slow
 @settings(max_examples=50, deadline=None)
 @given(TICKS, st.booleans())
 def test_whatever_it_is_told_its_intervals_are_in_order_and_within_the_edge(ticks, is_disk):

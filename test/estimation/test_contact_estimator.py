@@ -49,6 +49,7 @@ def random_block(seed, mu_c):
     return paper_block(theta, d, c, mu_c)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(('told', 'least', 'most'), [(True, 34, 40), (False, 0, 20)])
 def test_turning_of_the_disk_has_to_be_told(told, least, most):
     # Ten runs, four steps each. Told: fewer than 34 of 40 have a probability below 1 % at 95 %.
@@ -79,6 +80,7 @@ def test_before_any_data_it_knows_what_was_known_before():
         assert estimate.contradiction == ''
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('mu_c', [0.0, 0.2, math.inf])
 def test_intervals_have_the_truth_as_often_as_they_say(mu_c):
     # 24 runs and two steps each: fewer than 42 of 48 have a probability below 1 % at 95 %.
@@ -95,6 +97,7 @@ def test_intervals_have_the_truth_as_often_as_they_say(mu_c):
     assert inside >= 42
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('support', ['corners', 'rim', 'uniform'])
 def test_it_survives_a_limit_surface_that_is_not_its_own(support):
     outline = Outline.rectangle(0.05, 0.0475)

@@ -58,6 +58,7 @@ def random_pushes(seed, steps=150, vertices=BLOCK):
     return pushes(rig, steps, seed)
 
 
+@pytest.mark.slow
 def test_normal_pushes_raise_none():
     for seed in range(40):
         estimator = known()
@@ -93,6 +94,7 @@ def test_the_explanation_that_is_right_names_the_reason(theta, reason):
     assert watch.reason == reason
 
 
+@pytest.mark.slow
 def test_a_belt_that_stops_while_the_object_turns_is_told():
     # The object stays as it is, and the finger, which follows the law, is taken to push it on.
     told = 0
@@ -120,6 +122,7 @@ def first_reason(made):
     return next(filter(None, (one.contradiction for one in follow(known(), made))), '')
 
 
+@pytest.mark.slow
 def test_a_belt_that_stops_under_the_law_is_told():
     # The law pushes ever more to the side, which no object on a moving belt explains.
     for seed in range(0, 24, 2):
@@ -130,6 +133,7 @@ def test_a_belt_that_stops_under_the_law_is_told():
             assert first_reason(made) == STILL
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('seed', [0, 1, 3, 4, 8, 12])
 def test_a_contact_that_moves_by_itself_is_not_blamed_on_the_belt_or_the_outline(seed):
     # The belt runs and the object is the right one, but the tip turns and nobody says so. In these
@@ -171,6 +175,7 @@ def test_another_object_is_told():
             assert JUMPED in reasons[:6]
 
 
+@pytest.mark.slow
 def test_another_outline_is_told():
     # The plate's long edge, 1 cm from its centre of mass and pushed 2 cm from the middle, turns
     # faster than any object can that is pushed 4 cm from its centre of mass.

@@ -33,6 +33,7 @@ def test_before_any_data_the_finger_is_as_likely_anywhere_on_the_outline():
         assert estimate.contradiction == ''
 
 
+@pytest.mark.slow
 def test_readings_tell_the_edges_of_a_triangle_apart():
     # Two of the edges are almost alike, the third is not.
     edges = edges_of(TRIANGLE)
@@ -55,6 +56,7 @@ def test_readings_tell_the_edges_of_a_triangle_apart():
     assert np.mean(gained) > 0.1
 
 
+@pytest.mark.slow
 def test_the_long_edges_of_a_plate_are_told_from_the_short_ones():
     edges = edges_of(PLATE)
     for seed in range(8):
@@ -124,6 +126,7 @@ def test_an_edge_that_has_fallen_behind_says_so_and_stays_out():
     assert estimates[-1].d.most >= 0.01
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('wrong', [0.9, 1.1])
 def test_l_and_r_may_be_wrong_by_a_tenth(wrong):
     inside = total = 0

@@ -31,6 +31,7 @@ def test_rays_at_a_right_angle_have_the_covariance_computed_by_hand():
     assert found.covariance == pytest.approx(np.diag([0.0002**2 + 0.001**2, 0.0003**2]), abs=1e-15)
 
 
+@pytest.mark.slow
 def test_covariance_and_chi_squared_are_those_of_many_noisy_rays():
     rng = np.random.default_rng(0)
     places = [(-0.02, 0.0), (0.0, 0.0), (0.02, 0.0), (0.03, 0.02)]

@@ -11,6 +11,8 @@ from tactile_push.figures import gains
 from tactile_push.figures.gains import CREEPS, KD, KP, SERVOS, SWINGS
 from tactile_push.simulation import paper_block, rollout
 
+pytestmark = pytest.mark.slow
+
 THETA_D = math.radians(-10.0)
 PERFECT, LAG, LAG_AND_DELAY = SERVOS
 FRICTIONS = (0.0, 0.3, math.inf)

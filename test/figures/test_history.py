@@ -116,6 +116,7 @@ def test_lists_are_as_good_as_arrays(drawn):
     assert len(lines_by_label(axis)['θ'].get_ydata()) == 5
 
 
+@pytest.mark.slow
 def test_figures_need_no_display_and_leave_no_state_behind():
     program = (
         'import sys\n'

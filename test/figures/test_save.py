@@ -13,6 +13,8 @@ import pytest
 from support.papers_figures import FILES, MAKERS
 from tactile_push.figures import save_figures
 
+pytestmark = pytest.mark.slow
+
 NAMES = [f'{FILES[figure]}.{ending}' for figure in MAKERS for ending in ('png', 'svg')]
 SVG = '{http://www.w3.org/2000/svg}'
 

@@ -9,6 +9,8 @@ from matplotlib.text import Text
 
 from support.papers_figures import MAKERS
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize('number', MAKERS)
 def test_figure_is_one_or_two_columns_wide(figures, number):

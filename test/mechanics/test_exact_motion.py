@@ -518,6 +518,7 @@ def test_pushes_obey_coulomb_at_the_support_and_the_contact(standing, beta, x_c,
         assert_balanced(support, push, x_c, -l, mu_c)
 
 
+@pytest.mark.slow
 @settings(derandomize=True, deadline=None, max_examples=300)
 @given(
     lattice,
@@ -680,6 +681,7 @@ def test_split_points_and_points_without_load_change_nothing(standing, beta, x_c
     assert_same_motion(pushed(*v_p, x_c, -l, mu_c, split), push, lever(support) + l)
 
 
+@pytest.mark.slow
 @checked
 @given(feet, directions, coordinates, distances)
 def test_huge_friction_is_nearly_infinite_and_tiny_friction_nearly_none(standing, beta, x_c, l):
@@ -950,6 +952,7 @@ def test_one_point_may_bear_all_but_a_trace(light):
             assert lower <= 0.0 <= upper
 
 
+@pytest.mark.slow
 @settings(derandomize=True, deadline=None, max_examples=200)
 @given(
     st.lists(
@@ -985,6 +988,7 @@ def run_apart(code):
     return subprocess.run(command, timeout=60, capture_output=True, text=True, check=False)
 
 
+@pytest.mark.slow
 def test_a_number_that_is_none_moves_nothing():
     ended = run_apart("""
 import math
@@ -1003,6 +1007,7 @@ for place in range(4):
     assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
+@pytest.mark.slow
 def test_a_velocity_too_small_to_square_ends_in_a_motion():
     ended = run_apart("""
 import numpy as np

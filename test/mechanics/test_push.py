@@ -501,6 +501,7 @@ def test_an_ellipse_moves_as_simulated_in_the_plane(mu_c, beta, share):
     assert state[4] != left
 
 
+@pytest.mark.slow
 @checked
 @given(bodies(), shares, betas, lengths, mu_cs, ratios)
 def test_any_polygon_moves_as_simulated_in_the_plane(body, share, beta, length, mu_c, c):

@@ -228,6 +228,7 @@ def test_a_uniform_triangle_agrees_with_many_small_triangles(corners):
     assert support.c == pytest.approx(c, rel=2e-5)
 
 
+@pytest.mark.slow
 @seldom
 @given(st.floats(0.02, 0.1), st.floats(0.02, 0.1))
 def test_a_uniform_ellipse_agrees_with_the_double_integral(a, b):
@@ -241,6 +242,7 @@ def test_a_uniform_ellipse_agrees_with_the_double_integral(a, b):
     assert support.c == pytest.approx(expected, rel=2e-6)
 
 
+@pytest.mark.slow
 @seldom
 @given(st.floats(0.02, 0.1), st.floats(0.02, 0.1))
 def test_the_rim_of_an_ellipse_agrees_with_the_integral_along_it(a, b):
@@ -389,6 +391,7 @@ def test_a_density_with_a_step_agrees_with_a_grid(level):
     assert support.c == pytest.approx(c, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_a_density_is_not_asked_for_more_than_ten_million_values_at_once():
     def density(x, y):
         assert x.size <= 10_000_000
@@ -415,6 +418,7 @@ def families(outline, count):
     yield Support.density(outline, lambda x, y: 1.0 + 8.0 * x - 5.0 * y, count)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('name', ['block', 'triangle', 'disk', 'ellipse'])
 @pytest.mark.parametrize('count', [1, 20, 400])
 def test_points_bear_f_max_together_and_lie_around_the_centre(name, count):
@@ -430,6 +434,7 @@ def test_points_bear_f_max_together_and_lie_around_the_centre(name, count):
         assert count / 3.0 <= len(support.points) <= 2.0 * count + 4.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('name', ['block', 'triangle', 'disk', 'ellipse'])
 def test_the_c_of_the_points_converges_to_that_of_the_integral(name):
     outline = outlines()[name]
@@ -446,6 +451,7 @@ def test_the_c_of_the_points_converges_to_that_of_the_integral(name):
         assert max(error) < 0.8 / count
 
 
+@pytest.mark.slow
 def test_the_number_of_points_does_not_change_the_integral():
     for outline in outlines().values():
         for few, many in zip(families(outline, 3), families(outline, 300), strict=True):

@@ -137,6 +137,7 @@ def happen(live, events):
         live.tick()
 
 
+@pytest.mark.slow
 @CHECKED
 @given(events=st.lists(EVENTS, min_size=10, max_size=80), simulated=st.booleans())
 def test_whatever_happened_comes_out_again_to_the_bit(events, simulated):

@@ -62,6 +62,7 @@ def test_stops_make_it_forget(tmp_path):
     assert figures.inside is figures.inside_guaranteed is None
 
 
+@pytest.mark.slow
 def test_new_bag_has_what_a_node_that_heard_all_of_it_says(tmp_path):
     live = with_sensing(BLOCK, said_by_a_node(BLOCK), tmp_path / 'live')
     late = with_sensing(BLOCK, said_by_a_node(BLOCK, 100), tmp_path / 'late')
@@ -69,6 +70,7 @@ def test_new_bag_has_what_a_node_that_heard_all_of_it_says(tmp_path):
     assert main(['diff', str(live), str(tmp_path / 'estimated')]) == 0
 
 
+@pytest.mark.slow
 def test_two_fingers_are_two(tmp_path, capsys):
     with BagReader(BLOCK) as reader, BagWriter(tmp_path / 'two') as writer:
         for name in ('/left', '/right'):

@@ -83,6 +83,7 @@ def test_pose_is_read_by_others_as_it_was_written(read, stamp, frame, numbers):
     assert same([place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w], numbers)
 
 
+@pytest.mark.slow
 @CHECKED
 @given(stamp=STAMPS, frame=NAMES, numbers=st.lists(NUMBER, min_size=43, max_size=43))
 @pytest.mark.parametrize('read', [by_mcap, by_rosbags])

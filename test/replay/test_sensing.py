@@ -16,6 +16,8 @@ from tactile_push.interface import CONTACT, TOPICS
 from tactile_push.replay import replay
 from tactile_push.replay.messages import nanoseconds
 
+pytestmark = pytest.mark.slow
+
 BAGS = ['block', 'stops']
 
 

@@ -54,6 +54,7 @@ def test_topics_rates_gaps_and_order(write):
     assert info.version is info.parameters is None
 
 
+@pytest.mark.slow
 def test_median_of_very_many_intervals(tmp_path):
     # Every seventh interval is 70 ms, the others 10 ms.
     intervals = np.where(np.arange(40_000) % 7 == 0, 70, 10) * 1_000_000

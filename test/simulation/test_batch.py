@@ -146,6 +146,7 @@ def assert_batch_is_its_runs(batch, steps):
             assert summary[i] == history[i, last]
 
 
+@pytest.mark.slow
 @checked
 @given(st.lists(runs(ELLIPSOIDS), min_size=1, max_size=8))
 def test_each_run_of_a_batch_is_a_rollout(batch):
@@ -403,6 +404,7 @@ push(200_000, 5_000)  # takes minutes if it may
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == 'win32', reason='there is no SIGINT')
 def test_ctrl_c_ends_a_long_batch():
     child = subprocess.Popen(

@@ -89,6 +89,7 @@ def test_sending_to_nobody_does_no_harm(server, device_url):
     device.close()
 
 
+@pytest.mark.slow
 def test_device_may_go_and_another_may_come(server, device_url):
     for _ in range(3):
         device = Device(device_url, BAUD_RATE)
@@ -98,6 +99,7 @@ def test_device_may_go_and_another_may_come(server, device_url):
             server.send(LINE)
 
 
+@pytest.mark.slow
 def test_reader_that_does_not_keep_up_does_not_block(server, device_url):
     device = Device(device_url, BAUD_RATE)
     exchange(server, device)
@@ -121,6 +123,7 @@ def test_second_server_at_the_same_place_is_refused(server, device_url):
     device.close()
 
 
+@pytest.mark.slow
 def test_place_is_free_again_after_close(device_url):
     for _ in range(2):
         server = serve(device_url)
@@ -141,6 +144,7 @@ def test_message_about_an_address_in_use_names_it(address):
     server.close()
 
 
+@pytest.mark.slow
 def test_two_tcp_clients_both_receive(address):
     server = serve(address)
     devices = [Device(address, BAUD_RATE), Device(address, BAUD_RATE)]
@@ -160,6 +164,7 @@ def test_two_tcp_clients_both_receive(address):
     server.close()
 
 
+@pytest.mark.slow
 def test_tcp_client_that_goes_leaves_the_other_alone(address):
     server = serve(address)
     one, other = Device(address, BAUD_RATE), Device(address, BAUD_RATE)
@@ -173,6 +178,7 @@ def test_tcp_client_that_goes_leaves_the_other_alone(address):
     server.close()
 
 
+@pytest.mark.slow
 def test_tcp_clients_that_went_are_forgotten(address):
     server = serve(address)
     for _ in range(4):

@@ -163,6 +163,7 @@ HARDWARE = Faults(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('mu_c', [0.0, 0.1, 0.3, math.inf])
 def test_papers_gains_settle_the_block_with_a_lag_noise_outliers_and_dropouts(mu_c):
     for seed in range(25):

@@ -407,6 +407,7 @@ outlines = st.fixed_dictionaries(
 )
 
 
+@pytest.mark.slow
 @settings(
     derandomize=True,
     deadline=None,

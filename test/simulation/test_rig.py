@@ -516,6 +516,7 @@ def smallest_gap(corners, pose, start, end):
     )
 
 
+@pytest.mark.slow
 @given(
     path=paths,
     corners=polygons,

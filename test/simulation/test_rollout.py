@@ -272,6 +272,7 @@ RUNS = {
 }
 
 
+@pytest.mark.slow
 @checked
 @given(**RUNS)
 def test_mirror_images_have_mirrored_rollouts(shape, theta, phi, theta_desired, c, mu_c):
@@ -292,6 +293,7 @@ def test_mirror_images_have_mirrored_rollouts(shape, theta, phi, theta_desired, 
     assert np.mean(other.mode == [image[mode] for mode in one.mode.tolist()]) > 0.95
 
 
+@pytest.mark.slow
 @checked
 @given(**RUNS, scale=st.one_of(st.sampled_from([1.0 / 64.0, 4.0]), st.floats(0.1, 10.0)))
 def test_scaled_lengths_scale_the_rollout(shape, theta, phi, theta_desired, c, mu_c, scale):
@@ -314,6 +316,7 @@ def test_scaled_lengths_scale_the_rollout(shape, theta, phi, theta_desired, c, m
         assert getattr(other, name) / scale == pytest.approx(getattr(one, name), abs=1e-7)
 
 
+@pytest.mark.slow
 @checked
 @given(**RUNS)
 def test_rollout_is_what_the_rig_does_until_contact_is_lost(

@@ -222,6 +222,7 @@ def test_readings_that_agree_on_another_place_are_believed_unless_contact_is_los
     assert outcomes(finder, readings) == [0.0, jump, jump, 'no contact', jump, jump, 40.0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('rate', [20.0, 50.0, 500.0])
 def test_outliers_anywhere_on_the_hemisphere_do_not_get_through(rate):
     # Directions spread evenly over the hemisphere, 1 % of 50,000 readings; the others have a
@@ -301,6 +302,7 @@ events = st.lists(
 )
 
 
+@pytest.mark.slow
 @given(
     events=events,
     radius=st.floats(1e-4, 1.0),
@@ -338,6 +340,7 @@ def test_whatever_comes_contacts_lie_on_the_disk_and_are_newer_than_those_before
         newest, said = stamp, []
 
 
+@pytest.mark.slow
 @given(events=events)
 @PROPERTY
 def test_same_events_give_the_same_outcome(events):

@@ -101,6 +101,7 @@ def fastest_turn(theta, phi, mu_c, c):
     return fastest
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('mu_c', [0.0, 0.1, 0.3, 1.0, math.inf])
 def test_pushed_block_turns_no_faster_than_derived(mu_c):
     # v = 5 mm/s / sin 33 degrees; the corner lies 34.5 mm from the centre of mass.
