@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Record topics of a running ROS graph into a bag."""
 
+import math
 import struct
+import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -107,10 +109,11 @@ class Recorder:
 
     def stop(self) -> None:
         """Record what has been received, and nothing more; further calls do nothing."""
+        end = time.time_ns()  # the same for all topics, which are taken one after another
         for timer in self._timers:
             self._node.destroy_timer(timer)
         try:
-            self._take()
+            self._take(end)
         finally:
             for subscription in self._subscriptions.values():
                 self._node.destroy_subscription(subscription)
@@ -196,14 +199,15 @@ class Recorder:
             raw=True,
         )
 
-    def _take(self) -> None:
-        """Write what has been received, in the order in which it was."""
+    def _take(self, end: float = math.inf) -> None:
+        """Write what has been received until a time [ns], in the order in which it was."""
         waiting = self._simulated is not None and not self._simulated.running
         taken = [
             message
             for topic, subscription in self._subscriptions.items()
             if not (waiting and _is_latched(subscription))
             for message in _take_all(topic, subscription)
+            if message.received <= end
         ]
         if self._simulated is not None:
             for tick in _take_all(CLOCK, self._clock_subscription):

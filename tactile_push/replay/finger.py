@@ -64,8 +64,9 @@ class Finger:
         self.comparison.without_effect = parameters.without_effect(topics)
         self.new_bag: NewBag | None = None
         self.handlers: dict[str, Handler] = {}
-        self._first: Stamp | None = None  # reading that is replayed
-        self._as_recorded: list[tuple[Stamp, Message]] = []  # before it, or to be replaced
+        self._felt: Stamp | None = None  # the last reading that was replayed
+        # Before the first such reading, or about one that has not come yet.
+        self._as_recorded: list[tuple[Stamp, Message]] = []
         self._commands: dict[Stamp, Message] = {}
         self._states: dict[Stamp, Message] = {}
         # Whether a control period has made its command again; a recorded one may come after it.
@@ -102,7 +103,7 @@ class Finger:
             joints.append(self._controller.step.joint_states)
         if joints:
             self.handlers[JOINT_STATES] = partial(self._take_joint_states, joints)
-        self.handlers[CONTACT] = self._keep
+        self.handlers[CONTACT] = self._keep_contact
         return geometry
 
     def _replay_sensing(self, topics: Collection[str], epoch: int) -> ReplayedSensing | None:
@@ -136,15 +137,15 @@ class Finger:
         self._keep_commands(None)
         if self._sensing is not None:
             self._write(self._sensing.finish())
-        if self._first is None:
-            self._write(message for _, message in self._as_recorded)
+        self._write(message for _, message in self._as_recorded)
 
     def _take_reading(self, geometry: ReplayedGeometry, message: Message) -> None:
         self._feel(geometry.tactile(self._decode(message)), message.log_time)
 
     def _take_recorded_reading(self, geometry: ReplayedGeometry, message: Message) -> None:
-        self._keep(message)
-        felt = geometry.state(self._decode(message))
+        decoded = self._decode(message)
+        self._keep(stamp_of(decoded), message)
+        felt = geometry.state(decoded)
         if felt is not None:
             self._feel(felt, message.log_time)
 
@@ -183,10 +184,10 @@ class Finger:
 
     def _feel(self, felt: Felt, log_time: int) -> None:
         """Pass on what came of a reading."""
-        if self._first is None:
-            self._first = felt.stamp
+        if self._felt is None:
             self._write(message for stamp, message in self._as_recorded if stamp < felt.stamp)
-            self._as_recorded.clear()
+        self._felt = felt.stamp
+        self._as_recorded = [kept for kept in self._as_recorded if kept[0] > felt.stamp]
         self.comparison.count(felt)
         self._write_outputs(felt.outputs(), log_time)
         theta = None
@@ -216,10 +217,17 @@ class Finger:
         if self._sensing is not None and tick is not None:
             self._write(self._sensing.tick(stamp, log_time, tick))
 
-    def _keep(self, message: Message) -> None:
-        """Keep what was recorded before the first reading that is replayed."""
-        if self._first is None:
-            self._as_recorded.append((stamp_of(self._decode(message)), message))
+    def _keep_contact(self, message: Message) -> None:
+        self._keep(stamp_of(self._decode(message)), message)
+
+    def _keep(self, stamp: Stamp, message: Message) -> None:
+        """Keep what was recorded until the reading is replayed that it is about.
+
+        The recorder may have heard of a contact and not of its reading, at the end of the recording
+        as well as at its beginning.
+        """
+        if self._felt is None or stamp > self._felt:
+            self._as_recorded.append((stamp, message))
 
     def _keep_commands(self, until: int | None) -> None:
         """Write commands of another node, which belong to no tick, up to a log time [ns]."""

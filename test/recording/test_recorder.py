@@ -17,6 +17,7 @@ rclpy = pytest.importorskip('rclpy')
 
 from geometry_msgs.msg import PoseStamped, TwistStamped  # noqa: E402
 from rclpy.context import Context  # noqa: E402
+from rclpy.duration import Duration  # noqa: E402
 from rclpy.executors import SingleThreadedExecutor  # noqa: E402
 from rclpy.parameter import Parameter  # noqa: E402
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy  # noqa: E402
@@ -171,6 +172,24 @@ def test_messages_are_recorded_as_they_are(graph, writer, path):
     poses = [decoded for topic, _, decoded in messages if topic == graph.name + 'contact']
     assert [pose.pose.position.x for pose in poses] == [0.1 * i for i in range(100)]
     assert {pose.header.frame_id for pose in poses} == {'finger_disk'}
+
+
+def test_recording_ends_for_all_topics_at_the_same_time(graph, writer, monkeypatch):
+    recorder = Recorder(graph.node, ['contact', 'tactile'], writer)
+    contact = graph.publisher(PoseStamped, 'contact')
+    tactile = graph.publisher(JointState, 'tactile')
+    graph.spin_until(matched(contact, tactile))
+    take_all = recording._take_all
+
+    def take_slowly(topic, subscription):
+        yield from take_all(topic, subscription)
+        for publisher, message in ((contact, PoseStamped()), (tactile, JointState())):
+            publisher.publish(message)
+            assert publisher.wait_for_all_acked(Duration(seconds=30))
+
+    monkeypatch.setattr(recording, '_take_all', take_slowly)
+    recorder.stop()
+    assert recorder.counts == {graph.name + topic: 0 for topic in ('contact', 'tactile')}
 
 
 def test_type_hash_and_qos_are_those_of_the_publishers(graph, writer, path):

@@ -66,3 +66,22 @@ def test_contacts_alone_give_commands(tmp_path):
     (comparison,) = replayed(bag, out=tmp_path / 'out')
     assert not comparison.different()
     assert contents(tmp_path / 'out') == contents(bag)
+
+
+@pytest.mark.parametrize('name', BAGS)
+def test_contact_is_kept_whose_reading_the_recording_lacks_at_its_end(name, tmp_path):
+    with BagReader(DATA / name) as reader, BagWriter(tmp_path / 'bag') as writer:
+        for topic in reader.topics.values():
+            writer.add_topic(topic.name, topic.type_name, definition=topic.definition)
+        messages = list(reader.messages())
+        # The last contact is about the last reading; what was recorded after it goes, too.
+        last = max(i for i, message in enumerate(messages) if message.topic == '/contact')
+        stamp = reader.decode(messages[last]).header.stamp
+        for message in messages[: last + 1]:
+            readings = message.topic in ('/contact_geometry/state', '/tactile')
+            if not (readings and reader.decode(message).header.stamp == stamp):
+                writer.write(message.topic, message.data, message.log_time, message.publish_time)
+        for key, text in reader.notes.items():
+            writer.note(key, text)
+    replayed(tmp_path / 'bag', out=tmp_path / 'out')
+    assert contents(tmp_path / 'out') == contents(tmp_path / 'bag')
