@@ -59,6 +59,8 @@ class Tick:
         Time since the last tick on a clock that cannot be set [s]; NaN if that is not known.
     finger_age : float
         Time since the finger was at that position [s]; NaN if there is none.
+    psi : float
+        Angle of the finger tip's pole when the finger was there [rad]; NaN if it is not known.
     """
 
     state: str
@@ -74,6 +76,7 @@ class Tick:
     ticks_lost: int
     elapsed: float
     finger_age: float
+    psi: float = math.nan
 
     @property
     def known_velocity(self) -> float:
@@ -151,8 +154,9 @@ class PushControl:
         self._v_x = tick.v_x or 0.0
         self._contact.take(tick.theta, now - tick.silence)
         self._contact.fresh(now, math.inf)
-        self.locate_finger(tick.finger_x, now - tick.finger_age)
+        self.locate_finger(tick.finger_x, now - tick.finger_age, tick.psi)
         self._finger.fresh(now, math.inf)
+        self._pole.fresh(now, math.inf)
         self._finger_was_known |= self._finger.known
         self.state = PUSHING
         self._ticks, self._ticks_lost = tick.ticks, tick.ticks_lost
@@ -187,7 +191,7 @@ class PushControl:
         else:
             self._implausible = True
 
-    def locate_finger(self, x: float, stamp: float) -> None:
+    def locate_finger(self, x: float, stamp: float, psi: float = math.nan) -> None:
         """Take the finger's position as it arrives.
 
         Parameters
@@ -196,9 +200,12 @@ class PushControl:
             Centre of the disk across the belt, in `finger_base` [m]. NaN is ignored.
         stamp : float
             When it was there [s]. A position not newer than the last one is ignored.
+        psi : float, optional
+            Angle of the finger tip's pole there [rad]; NaN if it is not known.
         """
         if math.isfinite(x):
             self._finger.take(x, stamp)
+            self._pole.take(psi, stamp)
 
     def notice_another_command(self) -> None:
         """Take note that somebody else commands the finger: it cannot serve two."""
@@ -248,6 +255,7 @@ class PushControl:
         self._count(now, elapsed)
         felt = self._contact.fresh(now, self.limits.contact_timeout)
         self._finger.fresh(now, self.limits.joint_state_timeout)
+        self._pole.fresh(now, self.limits.joint_state_timeout)
         self._finger_was_known |= self._finger.known
         if self._implausible:
             self._implausible = False
@@ -339,6 +347,7 @@ class PushControl:
         self._since = now
         self._contact = Newest()
         self._finger = Newest()
+        self._pole = Newest()
         self._interrupted = False
         self._implausible = False
         self._implausible_at = -math.inf
@@ -359,4 +368,5 @@ class PushControl:
             self._ticks_lost,
             self._elapsed,
             now - self._finger.stamp if self._finger.known else math.nan,
+            self._pole.value,
         )

@@ -42,6 +42,7 @@ def tick_values(tick: Tick, law: PushLaw) -> dict[str, float]:
         'ticks_lost': float(tick.ticks_lost),
         'elapsed': tick.elapsed,
         'finger_age': tick.finger_age,
+        'psi': tick.psi,
     }
 
 
@@ -51,7 +52,7 @@ def tick_of(values: Mapping[str, float]) -> Tick:
     Parameters
     ----------
     values : mapping of str to float
-        The numbers by name. `elapsed` and `finger_age` may be missing.
+        The numbers by name. `elapsed`, `finger_age` and `psi` may be missing.
 
     Returns
     -------
@@ -78,6 +79,7 @@ def tick_of(values: Mapping[str, float]) -> Tick:
             ticks_lost=int(values['ticks_lost']),
             elapsed=values.get('elapsed', math.nan),
             finger_age=values.get('finger_age', math.nan),
+            psi=values.get('psi', math.nan),
         )
     except (KeyError, IndexError, ValueError, OverflowError) as error:
         raise ValueError(f'no control period: {error}') from None

@@ -66,12 +66,12 @@ class Control:
         """
         angles = by_name(names, positions)
         try:
-            x = self._finger.forward(*(angles[name] for name in self._joint_names)).x
+            pose = self._finger.forward(*(angles[name] for name in self._joint_names))
         except KeyError:
             return True  # joint states of another mechanism
         except ValueError:
             return False
-        self.push.locate_finger(x, self._seconds(*stamp))
+        self.push.locate_finger(pose.x, self._seconds(*stamp), pose.psi)
         return True
 
     def tick(self, stamp: Stamp, elapsed: float = math.nan) -> Tick:

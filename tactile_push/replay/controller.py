@@ -158,7 +158,7 @@ class ReplayedController:
         for contact in self._take_contacts(newest, recorded.log_time):
             push.feel(contact.theta, contact.stamp)
         age = tick.finger_age if math.isfinite(tick.finger_age) else 0.0
-        push.locate_finger(tick.finger_x, now - age)
+        push.locate_finger(tick.finger_x, now - age, tick.psi)
 
     def _take_contacts(self, newest: float, log_time: int) -> list[_Contact]:
         """Return the contacts that had arrived, and keep the others."""

@@ -19,6 +19,7 @@ from tactile_push.interface import (
     PUSH_CONTROLLER,
     SENSING_STATE,
     TACTILE,
+    TOPICS,
 )
 from tactile_push.parameters import (
     ActiveSensingParameters,
@@ -32,7 +33,7 @@ from tactile_push.pipeline.stamps import epoch_of, seconds_since, stamp_of
 from tactile_push.replay.comparison import Comparison
 from tactile_push.replay.controller import ReplayedController
 from tactile_push.replay.geometry import ReplayedGeometry
-from tactile_push.replay.messages import Replayed, Written, nanoseconds
+from tactile_push.replay.messages import Replayed, Written, nanoseconds, only
 from tactile_push.replay.new_bag import NewBag
 from tactile_push.replay.own_ticks import OwnTicks
 from tactile_push.replay.parameters import FingerParameters
@@ -42,6 +43,7 @@ PATIENCE = 2 * 10**9  # after which a recorded command belongs to no tick [ns]: 
 REMEMBERED = 1000  # control periods whose recorded command has not come; picked, far more than 2 s
 
 FOLLOWS_CHANGES = (ReplayedGeometry, ReplayedController)
+ALL_FIELDS = frozenset(TOPICS[CONTROLLER_STATE].field_names)
 
 Handler = Callable[[Message], None]
 
@@ -69,6 +71,7 @@ class Finger:
         self._as_recorded: list[tuple[Stamp, Message]] = []
         self._commands: dict[Stamp, Message] = {}
         self._states: dict[Stamp, Message] = {}
+        self._known = ALL_FIELDS  # those that the version that recorded had of a control period
         # Whether a control period has made its command again; a recorded one may come after it.
         self._made: dict[Stamp, bool] = {}
 
@@ -166,6 +169,7 @@ class Finger:
     def _take_tick(self, controller: ReplayedController, message: Message) -> None:
         decoded = self._decode(message)
         self._states[stamp_of(decoded)] = message
+        self._known = frozenset(decoded.name)
         self._conclude(controller.state(decoded, message.log_time))
 
     def _take_command(self, message: Message) -> None:
@@ -249,4 +253,6 @@ class Finger:
                 self.new_bag.copy(message)
             else:
                 (topic, fields), log_time = message
+                if topic == CONTROLLER_STATE:
+                    fields = only(self._known, fields)
                 self.new_bag.write(f'{self._namespace}/{topic}', fields, log_time)

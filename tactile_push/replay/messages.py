@@ -8,7 +8,7 @@ from typing import NamedTuple
 from tactile_push.bags import BagError, BagReader, Message
 from tactile_push.control import Tick
 from tactile_push.interface import TOPICS, fingers
-from tactile_push.pipeline import Output, Stamp
+from tactile_push.pipeline import Fields, Output, Stamp
 
 Written = Message | tuple[Output, int]
 """A message to copy, or a new one with its log time [ns]."""
@@ -26,6 +26,13 @@ class Replayed(NamedTuple):
 def nanoseconds(stamp: Stamp) -> int:
     """Return the time of a stamp [ns]."""
     return stamp[0] * 10**9 + stamp[1]
+
+
+def only(names: Collection[str], fields: Fields) -> Fields:
+    """Return the fields of a JointState without the numbers of other names."""
+    pairs = zip(fields['name'], fields['position'], strict=True)
+    kept = {name: position for name, position in pairs if name in names}
+    return {**fields, 'name': list(kept), 'position': list(kept.values())}
 
 
 def fingers_of(

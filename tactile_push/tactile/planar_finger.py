@@ -98,6 +98,32 @@ class PlanarFinger:
         proximal = math.atan2(y, x) - math.atan2(b * math.sin(distal), a + b * math.cos(distal))
         return math.remainder(proximal - self.mount_angle, 2.0 * math.pi), distal
 
+    def turning(self, proximal: float, distal: float) -> float:
+        """Find by how much the tip turns for each metre across the belt, dpsi/dx with y held.
+
+        With the directions k of the first link and psi of the second, and their lengths a and b,
+
+            dx = -a sin k dk - b sin psi dpsi,    0 = dy = a cos k dk + b cos psi dpsi.
+
+        Without dk this is cos k dx = b sin(k - psi) dpsi. The sign is that of cos k for a second
+        joint bent clockwise: a knuckle left of the first joint turns the tip clockwise on its way
+        to the right, and one right of it counterclockwise.
+
+        Parameters
+        ----------
+        proximal, distal : float
+            Joint angles [rad].
+
+        Returns
+        -------
+        float
+            dpsi/dx [rad/m]; infinite where the finger is stretched or folded, and cannot move
+            across the belt alone.
+        """
+        along = math.cos(self.mount_angle + proximal)
+        across = -self.distal_length * math.sin(distal)
+        return along / across if across != 0.0 else math.copysign(math.inf, along)
+
 
 # Of rig and nodes unless somebody gives another, straight ahead. The lengths are picked.
 USUAL_FINGER = PlanarFinger(0.06, 0.08, math.pi / 2.0)

@@ -762,6 +762,18 @@ def test_a_tick_tells_how_old_the_position_of_the_finger_is():
     assert running.tick(10.25).finger_age == 0.125
 
 
+def test_a_tick_tells_how_the_tip_was_turned_at_the_position_of_the_finger():
+    running = pushing(10.0)
+    running.locate_finger(0.01, 10.0625, 1.7)
+    assert running.tick(10.125).psi == 1.7
+    running.locate_finger(0.02, 10.0, 1.8)  # not newer
+    assert running.tick(10.25).psi == 1.7
+    running.locate_finger(0.03, 10.25)  # the links are known, and a wrist is not
+    tick = running.tick(10.375)
+    assert tick.finger_x == 0.03
+    assert math.isnan(tick.psi)
+
+
 def test_a_tick_tells_what_the_clock_that_cannot_be_set_said():
     running = pushing(10.0)
     assert math.isnan(running.tick(10.125).elapsed)
@@ -781,7 +793,7 @@ def test_another_control_can_go_on_where_one_has_pushed(thetas, x, middle):
     for k, theta in enumerate(thetas):
         now = 10.0 + k * PERIOD
         for running in (first, second):
-            running.locate_finger(x, now - 0.0625)
+            running.locate_finger(x, now - 0.0625, 1.5 - k / 64.0)
             running.feel(theta, now - 0.03125)
         ticks.append(first.tick(now))
         if k == middle:

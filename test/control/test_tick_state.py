@@ -22,7 +22,7 @@ from tactile_push.interface import CONTROLLER_STATE, TOPICS
 
 LAW = PushLaw(0.05, 5.0, -0.17)
 TICK = Tick(
-    *(PUSHING, NO_REASON, 0.1, 1.5, -0.004, 0.02, True, False, -0.03, 12, 1, 0.1, 0.01),
+    *(PUSHING, NO_REASON, 0.1, 1.5, -0.004, 0.02, True, False, -0.03, 12, 1, 0.1, 0.01, 1.6),
 )
 
 numbers = st.floats() | st.just(math.nan)
@@ -41,6 +41,7 @@ ticks = st.builds(
     ticks_lost=st.integers(0, 2**53),
     elapsed=numbers,
     finger_age=numbers,
+    psi=numbers,
 )
 
 
@@ -51,7 +52,7 @@ def test_every_number_stands_under_its_name():
         **{'theta': 0.1, 'theta_desired': -0.17, 'phi': 1.5, 'v_x': -0.004},
         **{'kp': 0.05, 'kd': 5.0, 'silence': 0.02, 'saturated': 1.0, 'limited': 0.0},
         **{'finger_x': -0.03, 'state': 2.0, 'stop_reason': 0.0, 'ticks': 12.0},
-        **{'ticks_lost': 1.0, 'elapsed': 0.1, 'finger_age': 0.01},
+        **{'ticks_lost': 1.0, 'elapsed': 0.1, 'finger_age': 0.01, 'psi': 1.6},
     }
 
 
@@ -75,13 +76,14 @@ def test_the_numbers_tell_the_control_period(tick):
     }
 
 
-def test_old_bags_lack_two_times():
+def test_old_bags_lack_two_times_and_an_angle():
     values = tick_values(TICK, LAW)
-    del values['elapsed'], values['finger_age']
+    del values['elapsed'], values['finger_age'], values['psi']
     tick = tick_of(values)
     assert math.isnan(tick.elapsed)
     assert math.isnan(tick.finger_age)
-    assert replace(tick, elapsed=0.1, finger_age=0.01) == TICK
+    assert math.isnan(tick.psi)
+    assert replace(tick, elapsed=0.1, finger_age=0.01, psi=1.6) == TICK
 
 
 @pytest.mark.parametrize('name', ['theta', 'v_x', 'state', 'stop_reason', 'ticks'])

@@ -46,6 +46,7 @@ def test_joints_say_where_the_finger_is_across_the_belt(control):
     assert control.joint_states((1, 0), ['other', *JOINTS], [7.0, *ANGLES])
     tick = control.tick((1, 250_000_000))
     assert tick.finger_x == pytest.approx(FINGER_X)
+    assert tick.psi == pytest.approx(math.pi / 2.0)
     assert tick.finger_age == pytest.approx(0.25)
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from tactile_push.bags import BagError, BagReader, BagWriter
 from tactile_push.interface import CONTACT, TACTILE
-from tactile_push.replay.messages import fingers_of, nanoseconds
+from tactile_push.replay.messages import fingers_of, nanoseconds, only
 
 JOINTS, POSE = 'sensor_msgs/msg/JointState', 'geometry_msgs/msg/PoseStamped'
 
@@ -28,6 +28,13 @@ def found(folder, topics, having, needed):
 )
 def test_stamp_is_a_time_to_the_nanosecond(stamp, time):
     assert nanoseconds(stamp) == time
+
+
+def test_numbers_of_other_names_are_left_out():
+    fields = {'header': {'frame_id': 'a'}, 'name': ['x', 'y', 'z'], 'position': [1.0, 2.0, 3.0]}
+    assert only({'z', 'x', 'w'}, fields) == {
+        **{'header': {'frame_id': 'a'}, 'name': ['x', 'z'], 'position': [1.0, 3.0]}
+    }
 
 
 def test_finger_has_the_topics_of_its_namespace_that_have_messages(tmp_path):

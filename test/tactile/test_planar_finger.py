@@ -152,3 +152,32 @@ def test_links_have_positive_finite_lengths(bad):
 def test_mount_angle_is_finite(bad):
     with pytest.raises(ValueError, match=r'^mount_angle: .*\[rad\]'):
         PlanarFinger(0.06, 0.08, bad)
+
+
+def test_tip_turns_clockwise_on_its_way_from_the_rectangle_to_the_right():
+    # The knuckle moves up and down there, so the second link alone moves the disk across: 1/b.
+    assert FINGER.turning(math.pi / 2.0, -math.pi / 2.0) == pytest.approx(-1.0 / 0.08)
+
+
+def test_tip_does_not_turn_where_the_first_link_points_along_the_belt():
+    assert FINGER.turning(0.0, -1.0) == pytest.approx(0.0, abs=1e-12)
+
+
+@given(finger=fingers, proximal=st.floats(-3.1, 3.1), distal=st.floats(-2.9, -0.25))
+@PROPERTY
+def test_turning_is_the_change_of_the_tip_s_angle_across_the_belt(finger, proximal, distal):
+    pose, step = finger.forward(proximal, distal), 1e-6
+    try:
+        left, right = (
+            finger.forward(*finger.inverse(pose.x + side, pose.y)).psi for side in (-step, step)
+        )
+    except OutOfReachError:
+        return
+    slope = math.remainder(right - left, 2.0 * math.pi) / (2.0 * step)
+    assert finger.turning(proximal, distal) == pytest.approx(slope, rel=1e-3, abs=1e-3)
+
+
+@pytest.mark.parametrize(('proximal', 'sign'), [(0.3, 1.0), (2.0, -1.0)])
+def test_stretched_finger_cannot_move_across_without_turning_ever_faster(proximal, sign):
+    finger = PlanarFinger(0.06, 0.08, 0.0)
+    assert finger.turning(proximal, 0.0) == sign * math.inf
