@@ -15,6 +15,10 @@ mu_c. Both are fitted on one half of a file's pushes, every second one, and trie
 and the other way round: every push is predicted by numbers that do not know it. `nominal` has
 nothing fitted: uniform pressure and mu_c = 0.25.
 
+A file may have the `support` on which the object rested, `points` [m] and `loads`. A further
+prediction then has these loads and fits mu_c alone, and one more fits mu_c and the tilt of a push
+above the support (`ExactLimitSurface`), both on one half for the other.
+
 The measured poses at the start of a push overlap by up to 2 mm in places. There the finger's way is
 moved out of the object along the contact normal: as if the offset were one of measurement, and
 stayed.
@@ -33,11 +37,20 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
-from tactile_push.mechanics import Outline, Pose, Slider, Support, clearance, tangent_angle
+from tactile_push.mechanics import (
+    ExactLimitSurface,
+    Outline,
+    Pose,
+    Slider,
+    Support,
+    clearance,
+    tangent_angle,
+)
 from tactile_push.simulation import read_object
 
 POINTS = 200  # that stand for the support
@@ -45,6 +58,9 @@ NOMINAL_MU_C = 0.25
 SHARES = np.arange(0.30, 0.951, 0.1)  # c as a share of what all load on the rim would give
 FRICTIONS = np.arange(0.05, 0.451, 0.1)
 PLACES = {'tip_start': 2, 'tip_end': 2, 'object_start': 3, 'object_end': 3}
+KNOWN_FRICTIONS = np.arange(0.3, 0.601, 0.05)  # of pushes on a known support
+TILTS = np.arange(0.0, 9e-3, 1e-3)  # [m]
+KNOWN = {'known': 'known support', 'known_tilt': 'known support, tilted'}
 REFINEMENTS = 3  # each halves the steps of the grid around the best point
 
 
@@ -59,6 +75,7 @@ class Pushes:
     ends: list[Pose]
     ways: list[tuple[tuple[float, float], tuple[float, float]]]
     published: dict[str, Any]
+    support: Support | None  # if the file has it
 
 
 @dataclass(frozen=True)
@@ -95,6 +112,7 @@ def read_pushes(file: Path) -> Pushes:
             for key, count in PLACES.items():
                 value = push.get(key) if isinstance(push, dict) else None
                 rows[key].append(_numbers(f'pushes[{k}]: {key}', value, count))
+        support = _support(content['support']) if 'support' in content else None
         published = content.get('published', {})
         if 'object_did_not_move_baseline' in content and isinstance(published, dict):
             published = published | {'object did not move': content['object_did_not_move_baseline']}
@@ -113,7 +131,16 @@ def read_pushes(file: Path) -> Pushes:
         [Pose(*pose) for pose in rows['object_end']],
         list(zip(rows['tip_start'], rows['tip_end'], strict=True)),
         published,
+        support,
     )
+
+
+def _support(content: Any) -> Support:
+    if not (isinstance(content, dict) and isinstance(content.get('points'), list)):
+        raise ValueError(f'support: expected points and loads, got {reprlib.repr(content)}')
+    points = [_numbers('support: points', point, 2) for point in content['points']]
+    loads = _numbers('support: loads', content.get('loads'), len(points))
+    return Support.at_points(points, loads)
 
 
 def _are_errors(errors: Any) -> bool:
@@ -137,9 +164,9 @@ def moved(pose: Pose, x: float, y: float) -> Pose:
     return Pose(pose.x + cos * x - sin * y, pose.y + sin * x + cos * y, pose.angle)
 
 
-def predict(pushes: Pushes, support: Support, mu_c: float) -> Errors:
+def predict(pushes: Pushes, support: Support, mu_c: float, tilt: float = 0.0) -> Errors:
     """Predict every push and compare the final poses."""
-    slider = Slider.on(pushes.outline, support, exact=True)
+    slider = Slider.on(pushes.outline, support, exact=True, tilt=tilt)
     x, y = support.centre
     path = slider.outline.path(pushes.tip_radius)
     position, angle = [], []
@@ -213,6 +240,26 @@ def fit(pushes: Pushes, progress: Progress) -> tuple[Errors, list[dict[str, floa
     return fitted, numbers
 
 
+def fit_known(
+    pushes: Pushes, support: Support, tilts: npt.NDArray[np.float64]
+) -> tuple[Errors, list[dict[str, float]]]:
+    """Fit mu_c and the tilt on either half of the pushes and predict the other half."""
+    most = ExactLimitSurface(support).largest_tilt
+    tilts = tilts[tilts <= most]
+    grid = [(float(mu_c), float(tilt)) for mu_c in KNOWN_FRICTIONS for tilt in tilts]
+    with ThreadPoolExecutor() as pool:
+        errors = list(pool.map(lambda point: predict(pushes, support, *point), grid))
+    half = np.arange(len(pushes.ways)) % 2
+    losses = np.array([error.position + support.c * error.angle for error in errors])
+    best = [int(np.argmin(losses[:, half == fold].mean(axis=1))) for fold in (0, 1)]
+    first, second = (errors[i] for i in best)
+    fitted = Errors(
+        np.where(half == 0, second.position, first.position),
+        np.where(half == 0, second.angle, first.angle),
+    )
+    return fitted, [{'mu_c': grid[i][0], 'tilt_mm': 1000.0 * grid[i][1]} for i in best]
+
+
 def main() -> int:
     """Run the benchmark."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -239,6 +286,10 @@ def main() -> int:
                     'nominal': nominal.figures(),
                     'published': pushes.published,
                 }
+                if pushes.support is not None:
+                    for name, tilts in (('known', TILTS[:1]), ('known_tilt', TILTS)):
+                        fitted, numbers = fit_known(pushes, pushes.support, tilts)
+                        results[pushes.name][name] = fitted.figures() | {'halves': numbers}
     except (OSError, ValueError) as error:
         print(f'real_pushes: {error}', file=sys.stderr)
         return 2
@@ -257,6 +308,7 @@ def show(results: dict[str, dict[str, Any]]) -> None:
     means: dict[str, list[dict[str, float]]] = {}
     for name, result in results.items():
         models = {'fitted, two-fold': result['fitted'], 'nominal': result['nominal']}
+        models |= {title: result[key] for key, title in KNOWN.items() if key in result}
         models |= {f'published: {model}': errors for model, errors in result['published'].items()}
         for model, errors in models.items():
             means.setdefault(model, []).append(errors)
@@ -277,6 +329,12 @@ def show(results: dict[str, dict[str, Any]]) -> None:
             for half in result['fitted']['halves']
         )
         print(f'{name}: {result["pushes"]} pushes; fitted on either half: {halves}')
+        if 'known_tilt' in result:
+            halves = '; '.join(
+                f'tilt = {half["tilt_mm"]:.0f} mm, mu_c = {half["mu_c"]:.2f}'
+                for half in result['known_tilt']['halves']
+            )
+            print(f'{name}: on the known support, fitted on either half: {halves}')
 
 
 def _cells(errors: dict[str, float]) -> list[str]:

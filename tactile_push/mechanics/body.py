@@ -20,7 +20,7 @@ class Body(NamedTuple):
 
     path: Array  #: pieces of the path of the disk around the object, (M + 1, 8); see `Outline.path`
     c: float  #: ratio m_max / f_max of the limit surface [m]
-    #: rows x, y [m] and load of an exact limit surface's points; None for the ellipsoid
+    #: rows of an exact limit surface, see `ExactLimitSurface.points`; None for the ellipsoid
     support: Array | None
 
 

@@ -11,9 +11,15 @@ the contact's velocity, and the velocity's direction is one root more.
 
 Where a support point stands still its friction is anything up to w, and the roots are jumps: both
 are kept in brackets, which shrink to them.
+
+A push above the support tilts the pressure: loads grow with the force. For a given motion the
+frictions' directions are known, so the force is the root of linear equations, and the same two
+roots find the motion.
 """
 
 import math
+
+import numpy as np
 
 from tactile_push.mechanics.compiled import Array, compiled, equation, reduction
 from tactile_push.mechanics.motion import (
@@ -28,6 +34,7 @@ from tactile_push.mechanics.motion import (
 
 STANDSTILL = 1e-13  # speed at which a support point's friction fades, of the contact's
 STANDS = 1e-300  # speed of a finger at rest [m/s]; its inverse is still a number
+EVEN = 3  # rows of a support whose loads do not depend on the force
 SMALLEST_SQUARE = 1e-200  # of a speed [m^2/s^2]; its power -3/2 is still a number
 CONVERGED = 1e-6  # last step of Newton's method and value before it, relative
 FARTHEST = 1e6  # longest step of Newton's method, relative
@@ -65,6 +72,78 @@ def support_force(
         h_ym += stiffness * v_x * along
         h_mm += stiffness * along * along
     return f_x, f_y, m, h_xx, h_xy, h_yy, h_xm, h_ym, h_mm
+
+
+@compiled
+def solved(
+    xx: float, xy: float, yx: float, yy: float, b_x: float, b_y: float
+) -> tuple[float, float]:
+    """Solve two linear equations, f = b + A f, for f."""
+    determinant = (1.0 - xx) * (1.0 - yy) - xy * yx
+    return (
+        ((1.0 - yy) * b_x + xy * b_y) / determinant,
+        ((1.0 - xx) * b_y + yx * b_x) / determinant,
+    )
+
+
+@reduction
+def frictions_by_force(
+    u_x: float, u_y: float, omega: float, x_c: float, y_c: float, support: Array
+) -> tuple[float, float, float, float, float, float, float, float]:
+    """Compute how the wrench of a motion depends on the force that tilts the pressure.
+
+    Returned are the force under no tilt and the derivatives of the wrench (f_x, f_y, m) by the
+    tilting force: f_x, f_y, xx, xy, yx, yy, mx, my.
+    """
+    floor = STANDSTILL**2 * (u_x * u_x + u_y * u_y) + SMALLEST_SQUARE
+    f_x, f_y, xx, xy, yx, yy, mx, my = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(support.shape[1]):
+        x, y = support[0, i] - x_c, support[1, i] - y_c
+        v_x, v_y = u_x - omega * y, u_y + omega * x
+        speed = math.sqrt(max(v_x * v_x + v_y * v_y, floor))
+        e_x, e_y = v_x / speed, v_y / speed
+        f_x += support[2, i] * e_x
+        f_y += support[2, i] * e_y
+        xx += support[3, i] * e_x
+        xy += support[4, i] * e_x
+        yx += support[3, i] * e_y
+        yy += support[4, i] * e_y
+        arm = x * e_y - y * e_x
+        mx += support[3, i] * arm
+        my += support[4, i] * arm
+    return f_x, f_y, xx, xy, yx, yy, mx, my
+
+
+@compiled
+def pushing_force(
+    u_x: float, u_y: float, omega: float, x_c: float, y_c: float, support: Array
+) -> tuple[float, float, float, float, float, float, float, float, float, float, float, float]:
+    """Compute the wrench that keeps a motion going under the loads that it causes itself.
+
+    As `support_force`; the matrix of derivatives is not symmetric if loads depend on the force,
+    and three more numbers follow: h_yx, h_mx, h_my.
+    """
+    if len(support) == EVEN:
+        f_x, f_y, m, h_xx, h_xy, h_yy, h_xm, h_ym, h_mm = support_force(
+            u_x, u_y, omega, x_c, y_c, support
+        )
+        return f_x, f_y, m, h_xx, h_xy, h_yy, h_xm, h_ym, h_mm, h_xy, h_xm, h_ym
+    f_x, f_y, xx, xy, yx, yy, mx, my = frictions_by_force(u_x, u_y, omega, x_c, y_c, support)
+    f_x, f_y = solved(xx, xy, yx, yy, f_x, f_y)
+    tilted = np.empty((EVEN, support.shape[1]))
+    tilted[:2] = support[:2]
+    tilted[2] = support[2] + f_x * support[3] + f_y * support[4]
+    f_x, f_y, m, h_xx, h_xy, h_yy, h_xm, h_ym, h_mm = support_force(
+        u_x, u_y, omega, x_c, y_c, tilted
+    )
+    # Derivatives under fixed loads, and by the loads that change with the force.
+    p_xx, p_yx = solved(xx, xy, yx, yy, h_xx, h_xy)
+    p_xy, p_yy = solved(xx, xy, yx, yy, h_xy, h_yy)
+    p_xm, p_ym = solved(xx, xy, yx, yy, h_xm, h_ym)
+    p_mx = h_xm + mx * p_xx + my * p_yx
+    p_my = h_ym + mx * p_xy + my * p_yy
+    p_mm = h_mm + mx * p_xm + my * p_ym
+    return f_x, f_y, m, p_xx, p_xy, p_yy, p_xm, p_ym, p_mm, p_yx, p_mx, p_my
 
 
 @equation
@@ -109,14 +188,15 @@ def exact_sticking(
 
     The material at the contact (x_c, y_c) moves at (u_x, u_y), not zero; `omega` is a first guess.
     Returned are omega, the force (f_x, f_y), and by the contact's velocity the derivatives of the
-    force (s_xx, s_xy, s_yy) and of omega (o_x, o_y).
+    force (s_xx, s_xy, s_yy) and of omega (o_x, o_y). Where loads depend on the force, s_xy is the
+    mean of the two mixed derivatives.
     """
     scale = math.hypot(u_x, u_y) / (c + math.hypot(x_c, y_c))
     lower, upper, before, smooth, found = -math.inf, math.inf, math.inf, True, False
-    f_x = f_y = h_xx = h_xy = h_yy = h_xm = h_ym = h_mm = 0.0
+    f_x = f_y = h_xx = h_xy = h_yy = h_xm = h_ym = h_mm = h_yx = h_mx = h_my = 0.0
     f_lx = f_ly = m_l = f_ux = f_uy = m_u = 0.0
     while not found:
-        f_x, f_y, m, h_xx, h_xy, h_yy, h_xm, h_ym, h_mm = support_force(
+        f_x, f_y, m, h_xx, h_xy, h_yy, h_xm, h_ym, h_mm, h_yx, h_mx, h_my = pushing_force(
             u_x, u_y, omega, x_c, y_c, support
         )
         if m < 0.0:
@@ -130,8 +210,11 @@ def exact_sticking(
     if not smooth:  # a standing point's friction lies between those of both sides
         share = m_l / (m_l - m_u)
         f_x, f_y = f_lx + share * (f_ux - f_lx), f_ly + share * (f_uy - f_ly)
-    o_x, o_y = (-h_xm / h_mm, -h_ym / h_mm) if h_mm > 0.0 else (0.0, 0.0)
-    return omega, f_x, f_y, h_xx + h_xm * o_x, h_xy + h_xm * o_y, h_yy + h_ym * o_y, o_x, o_y
+    o_x, o_y = (-h_mx / h_mm, -h_my / h_mm) if h_mm > 0.0 else (0.0, 0.0)
+    s_xy = h_xy + h_xm * o_y
+    if len(support) > EVEN:
+        s_xy = (s_xy + h_yx + h_ym * o_x) / 2.0
+    return omega, f_x, f_y, h_xx + h_xm * o_x, s_xy, h_yy + h_ym * o_y, o_x, o_y
 
 
 @compiled
@@ -198,8 +281,9 @@ def exact_pushed_twist(
         Ratio m_max / f_max [m], the scale of lengths.
     t_x, t_y : float
         Tangent of the edge in the object's frame.
-    support : ndarray, shape (3, N)
-        Support points (x, y, load) in the object's frame.
+    support : ndarray, shape (3, N) or (5, N)
+        Support points (x, y, load) in the object's frame; for a push above the support two rows
+        more, the derivatives of the loads by the force (f_x, f_y), see `ExactLimitSurface`.
 
     Returns
     -------

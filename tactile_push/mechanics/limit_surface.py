@@ -13,10 +13,11 @@ from tactile_push.mechanics.exact_motion import (
     STANDSTILL,
     exact_slipping,
     next_guess,
-    support_force,
+    pushing_force,
 )
 from tactile_push.mechanics.support import Support
 
+ROUNDING = 1e-9  # of a load that just vanishes, as a share of it
 ONE_PLACE = 1e-12  # of the support's places, relative to their distance from the origin
 
 
@@ -114,10 +115,16 @@ class EllipsoidalLimitSurface:
 class ExactLimitSurface:
     """The limit surface of the points that an object rests on.
 
+    A horizontal force at a height above the support tilts the pressure towards where it points: the
+    centre of friction moves by `tilt` f / f_max. Loads grow linearly with the place, as shares of
+    those at rest; on three points no other loads balance, on equal points it is what equal springs
+    give. The force is the one that the loads resist, so both are found together.
+
     Raises
     ------
     ValueError
-        If all load is in one place: it resists no moment.
+        If all load is in one place: it resists no moment. If the tilt is negative or not finite, or
+        a point would lift off under a force of f_max in some direction.
 
     References
     ----------
@@ -125,7 +132,9 @@ class ExactLimitSurface:
     and moment function", Wear 143, 307-330, 1991.
     """
 
-    support: Support  #: to whose centre wrenches and twists refer
+    support: Support  #: to whose centre, at rest, wrenches and twists refer
+    #: mu_s times the height of the force above the support [m]
+    tilt: float = 0.0
 
     def __post_init__(self) -> None:
         offsets = self.support.points - self.support.centre
@@ -135,12 +144,43 @@ class ExactLimitSurface:
                 'support: expected loads in more than one place, got all at '
                 f'{self.support.centre} m'
             )
+        if not (math.isfinite(self.tilt) and self.tilt >= 0.0):
+            raise ValueError(f'tilt: expected a finite length of 0 or more [m], got {self.tilt}')
+        if self.tilt > 0.0 and self.tilt > self.largest_tilt * (1.0 + ROUNDING):
+            raise ValueError(
+                f'tilt: expected at most {self.largest_tilt:.3g} m, up to where all points stay on '
+                f'the ground, got {self.tilt} m'
+            )
+
+    @property
+    def largest_tilt(self) -> float:
+        """Tilt [m] with which a force of f_max in some direction takes all load off a point."""
+        return float(1.0 / np.hypot(*self._tilting).max())
 
     @property
     def points(self) -> Array:
-        """Rows x, y [m] about the centre and load of the support points, shape (3, N)."""
+        """Rows x, y [m] about the centre and load of the support points, shape (3, N).
+
+        With a tilt two more rows, the derivatives of the loads by the force (f_x, f_y).
+        """
         x, y = (self.support.points - self.support.centre).T
-        return np.array([x, y, self.support.loads])  # each row in one piece of memory
+        load = self.support.loads
+        if self.tilt == 0.0:
+            return np.array([x, y, load])  # each row in one piece of memory
+        return np.array([x, y, load, *(load / self.support.f_max * self.tilt * self._tilting)])
+
+    @property
+    def _tilting(self) -> Array:
+        """By which share loads grow where the centre of friction moves [1/m], shape (2, N).
+
+        Of a point without load 0; not finite if all load is on one line.
+        """
+        load = self.support.loads
+        offsets = np.where(load > 0.0, (self.support.points - self.support.centre).T, 0.0)
+        moments = (offsets * load) @ offsets.T / load.sum()
+        if not np.linalg.det(moments) > ONE_PLACE * np.trace(moments) ** 2:
+            return np.full_like(offsets, np.inf)
+        return np.linalg.solve(moments, offsets)
 
     def wrench(self, twist: npt.ArrayLike) -> Array:
         """Compute the wrench on the surface that keeps a motion going.
@@ -164,10 +204,15 @@ class ExactLimitSurface:
         v_x, v_y, omega = np.asarray(twist, dtype=float)
         if not (v_x or v_y or omega):
             raise ValueError(f'twist: expected a motion that is not zero, got {twist!r}')
-        x, y, load = self.points
+        x, y, load, *growth = self.points
         u_x, u_y = v_x - omega * y, v_y + omega * x
         speed = np.hypot(u_x, u_y)
         moving = speed > STANDSTILL * (math.hypot(v_x, v_y) + self.support.c * abs(omega))
+        if growth:
+            slowness = np.divide(1.0, speed, out=np.zeros_like(speed), where=moving)
+            directions = slowness * [u_x, u_y]
+            by_force = directions @ np.transpose(growth)
+            load = load + np.linalg.solve(np.eye(2) - by_force, directions @ load) @ growth
         friction = np.divide(load, speed, out=np.zeros_like(speed), where=moving)
         return np.array([friction @ u_x, friction @ u_y, friction @ (x * u_y - y * u_x)])
 
@@ -196,7 +241,7 @@ class ExactLimitSurface:
         if not (math.isfinite(force + m) and (force or m)):
             raise ValueError(f'wrench: expected a finite one that is not zero, got {wrench!r}')
         if abs(m) > self.support.c * force:
-            return self._turning(f_x / m, f_y / m) / m
+            return self._turning(f_x / m, f_y / m, math.copysign(1.0, m)) / abs(m)
         # As if the force acted at the point of its line that is nearest to the centre.
         e_x, e_y, arm = f_x / force, f_y / force, m / force
         x, y = arm * e_y, -arm * e_x
@@ -225,8 +270,8 @@ class ExactLimitSurface:
         twist = self.twist(wrench)
         return float(1.0 / (twist @ self.wrench(twist)) ** 2)
 
-    def _turning(self, f_x: float, f_y: float) -> Array:
-        """Minimise the dissipation under the power 1 of the wrench (f_x, f_y, 1).
+    def _turning(self, f_x: float, f_y: float, sense: float) -> Array:
+        """Minimise the dissipation under the power 1 of the wrench (f_x, f_y, 1) times its sense.
 
         omega follows from (v_x, v_y); the dissipation is convex in these two. One root in v_y
         within one root in v_x.
@@ -234,14 +279,17 @@ class ExactLimitSurface:
         points = self.points
 
         def gradient(v_x: float, v_y: float) -> tuple[float, ...]:
-            omega = 1.0 - f_x * v_x - f_y * v_y
-            p_x, p_y, m, xx, xy, yy, xm, ym, mm = support_force(v_x, v_y, omega, 0.0, 0.0, points)
+            omega = sense - f_x * v_x - f_y * v_y
+            p_x, p_y, m, xx, xy, yy, xm, ym, mm, yx, mx, my = pushing_force(
+                v_x, v_y, omega, 0.0, 0.0, points
+            )
             return (
                 p_x - f_x * m,
                 p_y - f_y * m,
-                xx - 2.0 * f_x * xm + f_x * f_x * mm,
-                xy - f_x * ym - f_y * xm + f_x * f_y * mm,
-                yy - 2.0 * f_y * ym + f_y * f_y * mm,
+                xx - f_x * (xm + mx) + f_x * f_x * mm,
+                xy - f_x * my - f_y * xm + f_x * f_y * mm,
+                yy - f_y * (ym + my) + f_y * f_y * mm,
+                yx - f_x * ym - f_y * mx + f_x * f_y * mm,
             )
 
         scale, size = self.support.c, self.support.f_max
@@ -250,18 +298,18 @@ class ExactLimitSurface:
         while not found:
             floor, ceiling, before_y, found_y = -math.inf, math.inf, math.inf, False
             while not found_y:
-                g_x, g_y, h_xx, h_xy, h_yy = gradient(v_x, v_y)
+                g_x, g_y, h_xx, h_xy, h_yy, h_yx = gradient(v_x, v_y)
                 floor, ceiling = (v_y, ceiling) if g_y < 0.0 else (floor, v_y)
                 after, _, found_y = next_guess(
                     v_y, g_y, h_yy, before_y, floor, ceiling, scale, size
                 )
                 g_x += h_xy * (after - v_y)
                 v_y, before_y = after, abs(g_y)
-            slope = h_xx - h_xy * h_xy / h_yy if h_yy > 0.0 else h_xx
+            slope = h_xx - h_xy * h_yx / h_yy if h_yy > 0.0 else h_xx
             lower, upper = (v_x, upper) if g_x < 0.0 else (lower, v_x)
             after, _, found = next_guess(v_x, g_x, slope, before, lower, upper, scale, size)
             v_x, before = after, abs(g_x)
-        return np.array([v_x, v_y, 1.0 - f_x * v_x - f_y * v_y])
+        return np.array([v_x, v_y, sense - f_x * v_x - f_y * v_y])
 
 
 LimitSurface = EllipsoidalLimitSurface | ExactLimitSurface

@@ -197,8 +197,8 @@ def push(
         Pieces of the path, see `Outline.path`.
     c : float
         Ratio m_max / f_max [m].
-    support : ndarray, shape (3, N), or None
-        Support points (x, y, load) for the exact limit surface; None for the ellipsoid.
+    support : ndarray, shape (3, N) or (5, N), or None
+        Rows of an exact limit surface, see `ExactLimitSurface.points`; None for the ellipsoid.
     cos_alpha, sin_alpha : float
         The friction cone, see `friction_cone`.
     r : float

@@ -30,9 +30,9 @@ class Slider:
         not finite rows.
     """
 
-    outline: Outline  #: its origin at the centre of mass (or of friction)
+    outline: Outline  #: its origin at the centre of mass (or of friction, at rest)
     c: float  #: ratio m_max / f_max of the limit surface [m]
-    #: rows x, y [m] and load of an exact limit surface's points, (3, N); None for the ellipsoid
+    #: rows of an exact limit surface, see `ExactLimitSurface.points`; None for the ellipsoid
     points: Array | None = None
 
     def __post_init__(self) -> None:
@@ -40,8 +40,11 @@ class Slider:
             raise ValueError(f'c: expected a positive length m_max / f_max [m], got {self.c}')
         if self.points is not None:
             points = np.ascontiguousarray(self.points, dtype=float)  # or the sums would be slow
-            if points.ndim != 2 or len(points) != 3 or not np.isfinite(points).all():
-                raise ValueError(f'points: expected finite rows x, y, load, got {self.points!r}')
+            if points.ndim != 2 or len(points) not in (3, 5) or not np.isfinite(points).all():
+                raise ValueError(
+                    'points: expected finite rows x, y, load, and two more or none of the growth '
+                    f'of loads, got {self.points!r}'
+                )
             object.__setattr__(self, 'points', points)
 
     @classmethod
@@ -51,6 +54,7 @@ class Slider:
         support: Support,
         *,
         exact: bool = False,
+        tilt: float = 0.0,
         centre_of_mass: tuple[float, float] | None = None,
     ) -> 'Slider':
         """Put an object on its support.
@@ -64,6 +68,9 @@ class Slider:
         exact : bool, optional
             Whether the limit surface is the exact one of the support's points instead of the
             ellipsoid of its c.
+        tilt : float, optional
+            mu_s times the height of the push above the support [m], see `ExactLimitSurface`; 0 for
+            the ellipsoid.
         centre_of_mass : tuple of float, optional
             Centre of mass (x, y) [m], if it is known: it must lie over the support. The motion
             depends on the centre of friction alone.
@@ -71,13 +78,14 @@ class Slider:
         Returns
         -------
         Slider
-            The object; its origin is the centre of friction.
+            The object; its origin is the centre of friction at rest.
 
         Raises
         ------
         ValueError
             If support points lie outside the outline or all in one place, or the object would tip
-            over because the centre of mass lies beside all support.
+            over because the centre of mass lies beside all support. If the push may lift a support
+            point off the ground, or is above an ellipsoid's.
         """
         loaded = support.points[support.loads > 0.0]
         beyond = ~outline.contains(loaded, OVERHANG * outline.length)
@@ -85,7 +93,9 @@ class Slider:
             raise ValueError(
                 f'support: expected points under the object, got {loaded[beyond][0]} m outside'
             )
-        surface = ExactLimitSurface(support)
+        if tilt != 0.0 and not exact:
+            raise ValueError(f'tilt: expected 0 m for the ellipsoid, got {tilt} m')
+        surface = ExactLimitSurface(support, tilt)
         if centre_of_mass is not None:
             _check_balance(loaded, centre_of_mass)
         return cls(outline.about(*support.centre), support.c, surface.points if exact else None)

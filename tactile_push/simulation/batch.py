@@ -247,6 +247,8 @@ def rollouts(
     supports = [one.points for one in objects if one.points is not None]
     if len(supports) not in (0, len(objects)):
         raise ValueError('slider: expected all with points or all without, got both')
+    if len({len(points) for points in supports}) > 1:
+        raise ValueError('slider: expected all with a tilt or all without, got both')
     histories = np.full((count, steps + 1 if history else 1, QUANTITIES), np.nan)
     ends = np.empty((count, 2), dtype=np.int64)
     servos = None

@@ -79,10 +79,10 @@ def placed(pose, x, y):
     return complex(pose[0], pose[1]) + cmath.exp(1j * pose[2]) * complex(x, y)
 
 
-def measured(support, mu_c, start, tip_start, tip_end):
+def measured(support, mu_c, start, tip_start, tip_end, tilt=0.0):
     """Push an object in a file's frame, as an experiment would write it down."""
     x, y = support.centre
-    slider = Slider.on(Outline.polygon(VERTICES), support, exact=True)
+    slider = Slider.on(Outline.polygon(VERTICES), support, exact=True, tilt=tilt)
     middle = placed(start, x, y)
     moved = slider.pushed(
         Pose(middle.real, middle.imag, start[2]), tip_start, tip_end, mu_c, RADIUS
@@ -313,6 +313,35 @@ def test_the_nominal_prediction_has_uniform_pressure_and_a_quarter_of_friction(b
     assert nominal == pytest.approx(
         {'mean_mm': 0.0, 'mean_deg': 0.0, 'median_mm': 0.0, 'median_deg': 0.0}, abs=1e-5
     )
+
+
+FEET = {'points': [[0.005, 0.005], [0.05, 0.005], [0.01, 0.04]], 'loads': [1.0, 2.0, 1.5]}
+
+
+@pytest.mark.parametrize('tilt', [0.0, 3e-3])
+def test_pushes_on_a_known_support_say_how_far_above_it_they_are(bench, main, write, tilt):
+    support = Support.at_points(FEET['points'], FEET['loads'])
+    pushes = [measured(support, 0.4, *way, tilt) for way in ways(6)]
+    folder = write(content(pushes, support=FEET))
+
+    status, out, _ = main(folder, '--json')
+
+    assert status == 0
+    result = json.loads(out)['files']['block']
+    found = [half['tilt_mm'] for half in result['known_tilt']['halves']]
+    assert found == pytest.approx([1000.0 * tilt] * 2)
+    assert result['known_tilt']['mean_mm'] == pytest.approx(0.0, abs=1e-6)
+    assert (result['known']['mean_mm'] > 0.01) == (tilt > 0.0)
+    table = main(folder)[1]
+    assert f'fitted on either half: tilt = {1000.0 * tilt:.0f} mm, mu_c = 0.40' in table
+
+
+@pytest.mark.parametrize(
+    'support',
+    [None, [], {}, {'points': 3}, {'points': [[0.0]], 'loads': [1.0]}, FEET | {'loads': []}],
+)
+def test_a_support_that_is_none_is_refused(refused, write, support):
+    assert 'block.json: support: ' in refused(write(content([PUSH, PUSH], support=support)))
 
 
 def test_json_has_the_errors_of_every_file_beside_the_published_ones(bench, main, write):

@@ -159,6 +159,23 @@ def test_each_run_of_a_batch_on_exact_supports_is_a_rollout(batch):
     assert_batch_is_its_runs(batch, 10)
 
 
+TILTED = [
+    Slider.on(RECTANGLE, Support.corners(RECTANGLE), exact=True, tilt=3e-3),
+    Slider.on(RECTANGLE, Support.uniform(RECTANGLE, 20), exact=True, tilt=1e-3),
+]
+
+
+@settings(checked, max_examples=5)
+@given(st.lists(runs(TILTED), min_size=1, max_size=3))
+def test_each_run_of_a_batch_above_the_support_is_a_rollout(batch):
+    assert_batch_is_its_runs(batch, 10)
+
+
+def test_a_batch_with_and_without_a_tilt_is_refused():
+    with pytest.raises(ValueError, match='^slider: expected all with a tilt or all without'):
+        rollouts([EXACT[0], TILTED[0]], theta=np.zeros(2), d=np.zeros(2), steps=1)
+
+
 def test_large_batch_on_all_cores_is_its_runs_in_their_order():
     # Many more runs than cores and chunks, no two alike.
     count = 1003
