@@ -177,7 +177,7 @@ TOPICS = {
             'everything that one control period used and gave',
             (
                 Field('theta', 'rad', 'angle of the pushed edge'),
-                Field('theta_desired', 'rad', 'desired angle of the edge'),
+                Field('theta_desired', 'rad', 'desired angle of the edge, as trimmed'),
                 Field('phi', 'rad', 'push angle; 90° is straight ahead'),
                 Field('v_x', 'm/s', 'commanded velocity; NaN if none was commanded'),
                 Field('kp', 'rad/rad', 'proportional gain of the law'),
@@ -194,6 +194,7 @@ TOPICS = {
                 Field('elapsed', 's', 'time since the last tick by a clock that cannot be set'),
                 Field('finger_age', 's', 'age of finger_x and psi'),
                 Field('psi', 'rad', 'angle of the finger tip; 90° is straight ahead'),
+                Field('trim', 'rad', 'by how much steadying has moved theta_desired'),
             ),
         ),
         Topic(OBJECT_POSE, UNCERTAIN_POSE_TYPE, (ACTIVE_SENSING,), (),

@@ -77,6 +77,7 @@ class PushLaw:
         self.theta_desired = theta_desired
         self.phi_min = phi_min
         self.phi_max = phi_max
+        self.trim = 0.0  # added to theta_desired [rad], see `Steadying`
         self.phi = AHEAD
         self._theta_before: float | None = None
 
@@ -119,12 +120,17 @@ class PushLaw:
                 self._theta_before,
                 self.kp,
                 self.kd,
-                self.theta_desired,
+                self.aim,
                 self.phi_min,
                 self.phi_max,
             )
         self._theta_before = theta
         return self.phi
+
+    @property
+    def aim(self) -> float:
+        """The angle that it steers to: theta_desired with its trim [rad]."""
+        return self.theta_desired + self.trim
 
     @property
     def saturated(self) -> bool:

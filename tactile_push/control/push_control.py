@@ -23,6 +23,7 @@ from tactile_push.control.states import (
     WAITING,
     WORKSPACE_LIMIT,
 )
+from tactile_push.control.steadying import Steadying
 
 
 @dataclass(frozen=True)
@@ -61,6 +62,8 @@ class Tick:
         Time since the finger was at that position [s]; NaN if there is none.
     psi : float
         Angle of the finger tip's pole when the finger was there [rad]; NaN if it is not known.
+    trim : float
+        By how much steadying has moved theta_d [rad].
     """
 
     state: str
@@ -77,6 +80,7 @@ class Tick:
     elapsed: float
     finger_age: float
     psi: float = math.nan
+    trim: float = 0.0
 
     @property
     def known_velocity(self) -> float:
@@ -103,6 +107,8 @@ class PushControl:
         Control period [s].
     limits : Limits, optional
         When to stop and how fast to go at the most; may be changed at any time.
+    steadying : Steadying, optional
+        What trims theta_d; nothing by default; may be changed at any time.
 
     Attributes
     ----------
@@ -111,12 +117,18 @@ class PushControl:
     """
 
     def __init__(
-        self, law: PushLaw, belt_speed: float, period: float, limits: Limits | None = None
+        self,
+        law: PushLaw,
+        belt_speed: float,
+        period: float,
+        limits: Limits | None = None,
+        steadying: Steadying | None = None,
     ) -> None:
         self.law = law
         self.belt_speed = belt_speed
         self.period = period
         self.limits = limits or Limits()
+        self.steadying = steadying or Steadying()
         self._finger_was_known = False
         self.activate(0.0)
         self.state = INACTIVE
@@ -281,6 +293,7 @@ class PushControl:
             if self._interrupted:  # the last reading is too long ago to differ from
                 self._interrupted = False
                 self.law.reset()
+            self._steady()
             self.law.update(self._contact.value)
         wanted = finger_velocity(self.law.phi, self.belt_speed)
         bounded = limits.velocity(wanted, self._v_x, self.period)
@@ -293,6 +306,18 @@ class PushControl:
         at_limit = self._v_x != bounded or stays
         self.state = STOPPED if at_limit else PUSHING
         self._reason = WORKSPACE_LIMIT if at_limit else NO_REASON
+        if at_limit:
+            self._end_steadying()
+
+    def _steady(self) -> None:
+        """Trim theta_d for the law."""
+        x, psi = self._finger.value, self._pole.value
+        theta, theta_desired = self._contact.value, self.law.theta_desired
+        self.law.trim = self.steadying.follow(theta, theta_desired, x, psi, self.period)
+
+    def _end_steadying(self) -> None:
+        self.steadying.reset()
+        self.law.trim = 0.0
 
     def _cause_to_rest(self, now: float) -> str:
         """Find what forbids to push and will be seen to go away."""
@@ -310,6 +335,7 @@ class PushControl:
     def _rest(self, reason: str) -> None:
         """Hold the finger still; the law will start over."""
         self.law.reset()
+        self._end_steadying()
         self._v_x = 0.0
         self._limited = False
         self._reason = reason
@@ -344,6 +370,7 @@ class PushControl:
     def _forget(self, now: float) -> None:
         """Forget all that was felt."""
         self.law.reset()
+        self._end_steadying()
         self._since = now
         self._contact = Newest()
         self._finger = Newest()
@@ -369,4 +396,5 @@ class PushControl:
             self._elapsed,
             now - self._finger.stamp if self._finger.known else math.nan,
             self._pole.value,
+            self.law.trim,
         )

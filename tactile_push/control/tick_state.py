@@ -27,7 +27,7 @@ def tick_values(tick: Tick, law: PushLaw) -> dict[str, float]:
     """
     return {
         'theta': tick.theta,
-        'theta_desired': law.theta_desired,
+        'theta_desired': law.aim,
         'phi': tick.phi,
         'v_x': math.nan if tick.v_x is None else tick.v_x,
         'kp': law.kp,
@@ -43,6 +43,7 @@ def tick_values(tick: Tick, law: PushLaw) -> dict[str, float]:
         'elapsed': tick.elapsed,
         'finger_age': tick.finger_age,
         'psi': tick.psi,
+        'trim': tick.trim,
     }
 
 
@@ -52,7 +53,8 @@ def tick_of(values: Mapping[str, float]) -> Tick:
     Parameters
     ----------
     values : mapping of str to float
-        The numbers by name. `elapsed`, `finger_age` and `psi` may be missing.
+        The numbers by name. `elapsed`, `finger_age`, `psi` and `trim` may be
+        missing.
 
     Returns
     -------
@@ -80,6 +82,7 @@ def tick_of(values: Mapping[str, float]) -> Tick:
             elapsed=values.get('elapsed', math.nan),
             finger_age=values.get('finger_age', math.nan),
             psi=values.get('psi', math.nan),
+            trim=values.get('trim', 0.0),
         )
     except (KeyError, IndexError, ValueError, OverflowError) as error:
         raise ValueError(f'no control period: {error}') from None

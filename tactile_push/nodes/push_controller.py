@@ -18,7 +18,7 @@ from rclpy.timer import Timer
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from tactile_push.control import HELD, STOPPED, WAITING, Tick
+from tactile_push.control import HELD, PUSHING, STOPPED, WAITING, Tick
 from tactile_push.interface import COMMAND, CONTACT, CONTROLLER_STATE, JOINT_STATES, RESUME
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.managed import ManagedNode
@@ -29,6 +29,7 @@ from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import PUBLISHED, SENSOR_DATA
 from tactile_push.parameters.push_controller import (
     PushControllerParameters,
+    check_trimmed,
     make_control,
     make_finger,
     take_values,
@@ -56,13 +57,16 @@ class PushController(ManagedNode):
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
-        self._settings = declare(self, PushControllerParameters, self._take_parameters)
+        self._settings = declare(
+            self, PushControllerParameters, self._take_parameters, check_trimmed
+        )
         with refusing():
             self._control = make_control(self._settings)
         self._time = NodeTime(self)
         finger, joint_names = make_finger(self._settings), self._settings.joint_names
         self._steps = Control(self._control, finger, joint_names, self._time.seconds)
         self._timer: Timer | None = None
+        self._told_growth = False
         self._tick: Tick | None = None
         self._ticked_at = -math.inf  # on the steady clock [s]
         self._sent: deque[tuple[int, int, float]] = deque(maxlen=REMEMBERED)
@@ -207,8 +211,27 @@ class PushController(ManagedNode):
             elapsed, self._steady = steady - self._steady, steady
         self._tick = self._steps.tick((stamp.sec, stamp.nanosec), elapsed)
         self._ticked_at = time.monotonic()
+        self._tell_growth(self._tick)
         self._publish(stamp, self._tick)
         self._diagnostics.update()
+
+    def _tell_growth(self, tick: Tick) -> None:
+        """Say once, when the finger first pushes, if its drift will grow."""
+        e_fold = self._steps.outlook.e_fold
+        if self._told_growth or tick.state != PUSHING or math.isnan(e_fold):
+            return
+        self._told_growth = True
+        if e_fold < math.inf:
+            self.get_logger().info(
+                f'the tip turns by {self._steps.turning:.1f} rad for each metre across the belt: '
+                f'the drift of a straight edge that translates grows by e in {e_fold:.0f} s '
+                f'(edge_distance {self._settings.edge_distance:g} m)'
+            )
+        if self._settings.steadying_max > 0.0 and not self._steps.steadies:
+            self.get_logger().warning(
+                'steadying_max: no trim steadies an object whose centre of mass is so near to the '
+                f'edge (edge_distance {self._settings.edge_distance:g} m)'
+            )
 
     def _publish(self, stamp: Time, tick: Tick) -> None:
         if tick.v_x is not None:
@@ -239,13 +262,18 @@ class PushController(ManagedNode):
         tick = self._tick
         if tick is None:
             return Health(WARN, 'active, no tick yet')
+        outlook = self._steps.outlook
         values = {
             'theta [rad]': tick.theta,
-            'theta_desired [rad]': self._control.law.theta_desired,
+            'theta_desired [rad]': self._control.law.aim,
+            'trim [rad]': tick.trim,
             'phi [rad]': tick.phi,
             'v_x [m/s]': tick.v_x,
             'since last contact [s]': tick.silence,
             'finger x [m]': tick.finger_x,
+            'drift grows by e in [s]': outlook.e_fold,
+            'drift [m/s]': outlook.drift,
+            'workspace lasts [s]': outlook.lasts,
             'phi saturated': tick.saturated,
             'velocity limited': tick.limited,
         }
@@ -255,6 +283,9 @@ class PushController(ManagedNode):
             return Health(WARN, f'{_words(tick)}, but time stands still', values)
         others = self.count_publishers(COMMAND) - 1
         values[f'other publishers of {COMMAND}'] = others
+        if outlook.soon:
+            words = f'{_words(tick)}, but drifts to the end of the workspace'
+            return Health(WARN, words, values)
         rates = self._diagnostics.rates
         lately = rates['ticks lost'] + rates['commands of another node']
         if tick.state == WAITING or tick.saturated or tick.limited or lately or others > 0:

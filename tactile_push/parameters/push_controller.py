@@ -5,12 +5,13 @@
 from dataclasses import dataclass
 
 from tactile_push import paper
-from tactile_push.control import Limits, PushControl, PushLaw
+from tactile_push.control import Limits, PushControl, PushLaw, Steadying
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
 from tactile_push.tactile import PlanarFinger
 
 LIMITS = Limits()
+STEEPEST = 1.5  # largest angle that the edge may be asked to have [rad]; pi/2 faces away
 
 
 @dataclass(frozen=True)
@@ -21,7 +22,14 @@ class PushControllerParameters(NodeParameters):
     kp: float = parameter(paper.KP, 'rad/rad', 'proportional gain of the law (18)', 0.0, 100.0)
     kd: float = parameter(paper.KD, 'rad/rad', 'derivative gain of the law (18)', 0.0, 1000.0)
     theta_desired: float = parameter(paper.THETA_DESIRED, 'rad',
-        'desired angle of the edge', -1.5, 1.5)
+        'desired angle of the edge', -STEEPEST, STEEPEST)
+    steadying_max: float = parameter(0.0, 'rad',
+        'largest trim of theta_desired, by which an object with straight edges is carried straight '
+        'ahead; 0 trims nothing', 0.0, 0.5)
+    edge_distance: float = parameter(paper.BLOCK_L, 'm',
+        'distance l from the pushed edge to the centre of mass, for the trim and for telling how '
+        'fast a drift grows', 1e-3, 1.0, read_only=True)
+    finger_radius: float = shared.finger_radius
     phi_min: float = parameter(paper.PHI_MIN, 'rad',
         'smallest push angle', 0.1, 1.57, read_only=True)
     phi_max: float = parameter(paper.PHI_MAX, 'rad',
@@ -59,13 +67,16 @@ def make_control(p: PushControllerParameters) -> PushControl:
     Raises
     ------
     ValueError
-        If the workspace is empty or the finger has not two joints.
+        If the workspace is empty, the finger has not two joints, or theta_desired could be trimmed
+        too far.
     """
+    check_trimmed(p)
     if not len(p.joint_names) == len(set(p.joint_names)) == 2:
         raise ValueError(f'joint_names: expected two different names, got {p.joint_names}')
     law = PushLaw(p.kp, p.kd, p.theta_desired, p.phi_min, p.phi_max)
     limits = Limits(workspace_min=p.workspace_min, workspace_max=p.workspace_max)
-    control = PushControl(law, p.belt_speed, 1.0 / p.control_rate, limits)
+    steadying = Steadying(p.steadying_max, p.edge_distance, p.finger_radius)
+    control = PushControl(law, p.belt_speed, 1.0 / p.control_rate, limits, steadying)
     take_values(control, p)
     return control
 
@@ -75,10 +86,27 @@ def make_finger(p: PushControllerParameters) -> PlanarFinger:
     return PlanarFinger(p.proximal_length, p.distal_length, p.mount_angle)
 
 
+def check_trimmed(p: PushControllerParameters) -> None:
+    """Refuse an angle that steadying could trim to one at which the edge faces away.
+
+    Raises
+    ------
+    ValueError
+        If it could.
+    """
+    most = STEEPEST - p.steadying_max
+    if not abs(p.theta_desired) <= most:
+        raise ValueError(
+            f'theta_desired: expected -{most:g} to {most:g} rad with a trim of up to '
+            f'{p.steadying_max:g} rad, got {p.theta_desired}'
+        )
+
+
 def take_values(control: PushControl, p: PushControllerParameters) -> None:
     """Set the control's values that may change while it runs."""
     law, limits = control.law, control.limits
     law.kp, law.kd, law.theta_desired = p.kp, p.kd, p.theta_desired
+    control.steadying.bound = p.steadying_max
     limits.contact_timeout = p.contact_timeout
     limits.joint_state_timeout = p.joint_state_timeout
     limits.max_ticks_lost = p.max_ticks_lost

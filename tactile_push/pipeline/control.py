@@ -5,7 +5,7 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from tactile_push.control import PushControl, Tick, plausible, tick_values
+from tactile_push.control import UNKNOWN, Drift, PushControl, Tick, plausible, tick_values
 from tactile_push.interface import COMMAND, CONTROLLER_STATE, FINGER_DISK
 from tactile_push.pipeline.messages import Output, command_fields, joint_state_fields
 from tactile_push.pipeline.named import by_name
@@ -25,6 +25,14 @@ class Control:
         The finger's links, which say where the joints bring the disk, and its two moving joints.
     seconds : callable
         Returns the time [s] of a stamp.
+
+    Attributes
+    ----------
+    turning : float
+        By how much the tip turns where the finger is for each metre across the belt, dpsi/dx
+        [rad/m]; NaN if unknown.
+    outlook : Outlook
+        Where the finger's drift leads, as of the last tick.
     """
 
     def __init__(
@@ -34,6 +42,17 @@ class Control:
         self._finger = finger
         self._joint_names = joint_names
         self._seconds = seconds
+        self._drift = Drift(
+            *(push.steadying.l, push.steadying.r, push.belt_speed, push.period),
+            *(push.limits.workspace_min, push.limits.workspace_max),
+        )
+        self.turning = math.nan
+        self.outlook = UNKNOWN
+
+    @property
+    def steadies(self) -> bool:
+        """Whether steadying can hold an object where the finger is."""
+        return self.push.steadying.holds(self.turning)
 
     def contact(self, stamp: Stamp, theta: float) -> bool:
         """Take a contact.
@@ -66,12 +85,14 @@ class Control:
         """
         angles = by_name(names, positions)
         try:
-            pose = self._finger.forward(*(angles[name] for name in self._joint_names))
+            joints = [angles[name] for name in self._joint_names]
+            pose, turning = self._finger.forward(*joints), self._finger.turning(*joints)
         except KeyError:
             return True  # joint states of another mechanism
         except ValueError:
             return False
         self.push.locate_finger(pose.x, self._seconds(*stamp), pose.psi)
+        self.turning = turning
         return True
 
     def tick(self, stamp: Stamp, elapsed: float = math.nan) -> Tick:
@@ -89,7 +110,9 @@ class Control:
         Tick
             What to command and why.
         """
-        return self.push.tick(self._seconds(*stamp), elapsed)
+        tick = self.push.tick(self._seconds(*stamp), elapsed)
+        self.outlook = self._drift.follow(tick, self.push.law.aim, self.turning)
+        return tick
 
     def outputs(self, stamp: Stamp, tick: Tick) -> Iterator[Output]:
         """Yield the messages of a control period: the command, if there is one, and the state.

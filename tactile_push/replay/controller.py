@@ -61,10 +61,10 @@ class ReplayedController:
     def __init__(
         self, values: PushControllerParameters, overridden: Collection[str], epoch: int
     ) -> None:
-        self._values = values
+        self._values = replace(values, steadying_max=0.0)  # each tick tells how it was trimmed
         self._overridden = overridden
         self._seconds = partial(seconds_since, epoch)
-        self._push = make_control(values)
+        self._push = make_control(self._values)
         self.step = Control(self._push, make_finger(values), values.joint_names, self._seconds)
         self._contacts: deque[_Contact] = deque(maxlen=REMEMBERED)
         self._newest = -math.inf
@@ -75,7 +75,7 @@ class ReplayedController:
 
     def change(self, values: Mapping[str, Any]) -> None:
         """Take values of parameters that changed while the node ran."""
-        self._values = replace(self._values, **values)
+        self._values = replace(self._values, **{**values, 'steadying_max': 0.0})
         take_values(self._push, self._values)
 
     def feel(self, theta: float | None, stamp: Stamp, log_time: int) -> Iterator[Replayed]:
@@ -107,9 +107,15 @@ class ReplayedController:
             if not complete and log_time < recorded.log_time + PATIENCE:
                 return
             self._waiting.popleft()
-            self._last = self._make(recorded)
+            self._last = self._trimmed(self._make(recorded), recorded.tick.trim)
             self._before = recorded
             yield Replayed(recorded.stamp, recorded.log_time, self._last, recorded.tick)
+
+    def _trimmed(self, tick: Tick | None, trim: float) -> Tick | None:
+        """Return a tick with the trim that the recorded theta_d has in it."""
+        if tick is None or 'theta_desired' in self._overridden:
+            return tick
+        return replace(tick, trim=trim)
 
     def _make(self, recorded: _Recorded) -> Tick | None:
         """Make one tick; None as long as the node's memory is not known."""

@@ -112,7 +112,7 @@ def estimate(
             except ValueError as error:
                 raise BagError(f'{bag.path}: {message.topic}: {error}') from None
             sensed = steps[namespace].tick(stamp_of(decoded), tick)
-            desired = values_by_name.get('theta_desired', math.nan)
+            desired = values_by_name.get('theta_desired', math.nan) - tick.trim
             histories[namespace].add(tick.state, desired, sensed)
             if new is not None:
                 for topic, fields in sensed.outputs():

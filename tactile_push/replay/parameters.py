@@ -28,7 +28,10 @@ LINKS = ('proximal_length', 'distal_length', 'mount_angle')
 # Parameters whose effect is in the node's recorded state: when it ticked, where the finger was.
 RECORDED_EFFECT = {
     CONTACT_GEOMETRY: {'joint_names'},
-    PUSH_CONTROLLER: {'control_rate', 'joint_names', *LINKS},
+    PUSH_CONTROLLER: {
+        *('control_rate', 'joint_names', 'steadying_max', 'edge_distance', 'finger_radius'),
+        *LINKS,
+    },
 }
 OF_EVERY_NODE = 'use_sim_time'  # without effect here: all times are the bag's
 OF_OUTLINE = ('disk_radius', 'edge')  # go with the outline, so another outline replaces them

@@ -18,6 +18,7 @@ KNOWN = 0.002  # d is known if its 95 % interval is no wider; the paper reads of
 # What the figures are computed from.
 OF_STEPS = ('theta', 'theta_desired', 'phi', 'v_x', 'saturated', 'limited')
 FIELDS = (*OF_STEPS, 'silence', 'state', 'stop_reason', 'ticks', 'ticks_lost')
+ROUNDING = 1e-9  # angles that differ by less are the same [rad]
 
 
 @dataclass(frozen=True)
@@ -37,8 +38,9 @@ class PushFigures:
     states: int  # in the bag
     steps: int  # states in which the law acted: the steps of the paper, counted from 0
     missing: tuple[str, ...]  # fields that no state had: the bag is older than they are
-    theta_desired: float | None  # at the last step [rad]
+    theta_desired: float | None  # at the last step, without its trim [rad]
     theta_desired_changes: int  # between steps
+    trim_range: Range | None  # by how much steadying moved theta_desired, if it did [rad]
     band: float  # how near to it counts as settled [rad]
     settle_step: int | None  # step from which theta stays so near
     # Step from which theta_range, phi_range and d_range are taken: the paper's or, in a short run,
@@ -65,9 +67,9 @@ def push_figures(
     """Compute how well a finger pushed.
 
     `states` are the columns of `push_controller/state`; 'stamp', if it is another time than 'time',
-    is that of the header [s]. Theta counts as settled within `band` of its desired value [rad]. `l`
-    is the distance from the edge to the centre of mass [m], `pushed` is `BLOCK`, `DISK` or `OTHER`;
-    both are None if they are not known.
+    is that of the header [s]. Theta counts as settled within `band` of its desired value as trimmed
+    [rad]. `l` is the distance from the edge to the centre of mass [m], `pushed` is `BLOCK`, `DISK`
+    or `OTHER`; both are None if they are not known.
     """
     time = states.get('time', np.empty(0))
     column = {name: states.get(name, np.full(len(time), math.nan)) for name in FIELDS}
@@ -79,7 +81,9 @@ def push_figures(
     steps = int(pushing.sum())
     first = TRANSLATING_STEP if steps > TRANSLATING_STEP else steps - steps // 3
     theta, phi = step['theta'][first:], step['phi'][first:]
-    desired = step['theta_desired'][np.isfinite(step['theta_desired'])]
+    trim = states.get('trim', np.zeros(len(time)))[pushing]
+    desired = step['theta_desired'] - trim
+    desired = desired[np.isfinite(desired)]
     theta_desired = float(desired[-1]) if len(desired) else None
     silence, silence_at = _longest_silence(time, column['silence'], pushing | stopped)
     return PushFigures(
@@ -87,7 +91,8 @@ def push_figures(
         steps=steps,
         missing=tuple(name for name in FIELDS if name not in states),
         theta_desired=theta_desired,
-        theta_desired_changes=int(np.count_nonzero(np.diff(desired))),
+        theta_desired_changes=int(np.count_nonzero(np.abs(np.diff(desired)) > ROUNDING)),
+        trim_range=_range(trim) if trim.any() else None,
         band=band,
         settle_step=settle_step(step['theta'] - step['theta_desired'], 0.0, band),
         ranges_from=first,

@@ -35,7 +35,8 @@ def outcome_of(ticks: Table, sensing: Table, pushed: Pushed) -> list[Row]:
     """
     if not ticks:
         return []
-    paper = paper_figures(float(ticks.get('theta_desired', [math.nan])[-1]), pushed.object)
+    desired = float(ticks.get('theta_desired', [math.nan])[-1] - ticks.get('trim', [0.0])[-1])
+    paper = paper_figures(desired, pushed.object)
     push = push_figures(ticks, paper.band if paper else TOLERANCE, pushed.l, pushed.object)
     known = None
     if 'state' in ticks and {'d_lower', 'd_upper'} <= sensing.keys():
@@ -62,6 +63,7 @@ def push_rows(push: PushFigures, known: str | None = None) -> list[Row]:
         changes = push.theta_desired_changes
         changed = f' (changed {changes} times)' if changes else ''
         rows.append(Row('θ_d [°]', fixed(push.theta_desired * DEGREES, 1) + changed))
+    rows += _range('θ_d trimmed by [°]', push.trim_range, None, DEGREES, 1)
     if push.steps:
         rows.append(Row(f'θ within {band} of θ_d from step', step_words(push.settle_step), settled))
     since = f'from step {push.ranges_from}'

@@ -7,7 +7,7 @@ from itertools import count
 
 import numpy as np
 
-from tactile_push.control import PUSHING, WAITING, Limits, PushControl, PushLaw
+from tactile_push.control import PUSHING, WAITING, Limits, PushControl, PushLaw, Steadying
 from tactile_push.interface import JOINT_STATES, TOPICS
 from tactile_push.pipeline import Control, Geometry, Stamp
 from tactile_push.simulation.faults import NO_FAULTS, Faults
@@ -30,6 +30,7 @@ def experiment(
     faults: Faults = NO_FAULTS,
     sensor_rate: float | None = None,
     limits: Limits | None = None,
+    steadying: Steadying | None = None,
     seed: int = 0,
 ) -> Rollout:
     """Run the control law on the rig, through its sensor and its finger.
@@ -52,6 +53,8 @@ def experiment(
         Readings a second [Hz], a whole number in each control period; one by default.
     limits : Limits, optional
         When the controller stops, which ends the run, and how fast it may go.
+    steadying : Steadying, optional
+        What trims theta_d; nothing by default. The run changes it.
     seed : int, optional
         Seed of the random numbers: the same seed gives the same run to the bit.
 
@@ -79,7 +82,7 @@ def experiment(
         joint_state_timeout=JOINT_STATE_TIMEOUT,
         mount_angle=config.finger.mount_angle,
     )
-    push = PushControl(law, config.belt_speed, period, limits)
+    push = PushControl(law, config.belt_speed, period, limits, steadying)
     push.activate(0.0)
 
     def seconds(k: int, i: int) -> float:

@@ -28,6 +28,7 @@ from tactile_push.control import (
     Limits,
     PushControl,
     PushLaw,
+    Steadying,
 )
 
 checked = settings(derandomize=True, deadline=None, max_examples=60)
@@ -801,3 +802,97 @@ def test_another_control_can_go_on_where_one_has_pushed(thetas, x, middle):
         elif k > middle:
             assert repr(second.tick(now)) == repr(ticks[-1])  # in which NaN is NaN
     assert ticks[middle].state == PUSHING
+
+
+def steadied(bound=0.1, x=0.0):
+    """Return a control that pushes an edge at theta_d, and whose trim has begun."""
+    running = control()
+    running.steadying = Steadying(bound, 0.02, 0.01)
+    for k in range(-4, 1):
+        running.locate_finger(x, 10.0 + k * PERIOD, AHEAD)
+        running.feel(0.0, 10.0 + k * PERIOD)
+        assert running.tick(10.0 + k * PERIOD).trim == 0.0
+    return running
+
+
+def drifting(running, ticks, start=10.0, v_x=0.0005, psi=AHEAD):
+    """Drift on at an angle of 0 and return the ticks."""
+    found = []
+    for k in range(1, ticks + 1):
+        running.locate_finger(v_x * k * PERIOD, start + k * PERIOD, psi)
+        running.feel(0.0, start + k * PERIOD)
+        found.append(running.tick(start + k * PERIOD))
+    return found
+
+
+def test_the_law_steers_to_the_trimmed_angle():
+    running = steadied()
+    before = running.tick(10.0).phi
+    ticks = drifting(running, 3)
+    # A drift to the right raises the trim, so phi falls below straight ahead by kp times the sum.
+    assert 0.0 < ticks[0].trim < ticks[1].trim < ticks[2].trim
+    assert ticks[-1].phi == pytest.approx(before - 0.5 * sum(tick.trim for tick in ticks))
+    assert running.law.theta_desired == 0.0
+    assert running.law.aim == ticks[-1].trim
+
+
+def test_without_a_bound_everything_is_as_without_steadying():
+    plain, unbounded = control(), control()
+    unbounded.steadying = Steadying(0.0)
+    for running in (plain, unbounded):
+        running.feel(0.0, 10.0 - PERIOD)
+        running.tick(10.0 - PERIOD)
+    assert [repr(t) for t in drifting(plain, 20)] == [repr(t) for t in drifting(unbounded, 20)]
+
+
+STOPS = {
+    CONTACT_SILENT: lambda running, now: [running.tick(now + k * PERIOD) for k in range(3)],
+    IMPLAUSIBLE_CONTACT: lambda running, now: running.feel(math.nan, now),
+    ANOTHER_COMMAND: lambda running, now: running.notice_another_command(),
+    CLOCK_JUMPED: lambda running, now: running.notice_clock_jump(now),
+}
+
+
+@pytest.mark.parametrize('reason', STOPS)
+def test_whatever_stops_the_finger_ends_the_trim(reason):
+    running = steadied()
+    drifting(running, 20)
+    assert running.law.trim > 0.0
+    now = 10.0 + 21 * PERIOD
+    STOPS[reason](running, now)
+    tick = running.tick(now + 3 * PERIOD)
+    assert (tick.state, tick.stop_reason) == (STOPPED, reason)
+    assert (tick.trim, running.law.aim) == (0.0, 0.0)
+
+
+def test_the_end_of_the_workspace_ends_the_trim():
+    running = steadied()
+    drifting(running, 20)
+    running.locate_finger(-0.105, 10.0 + 21 * PERIOD, AHEAD)
+    running.feel(0.4, 10.0 + 21 * PERIOD)  # the law wants it to the left
+    tick = running.tick(10.0 + 21 * PERIOD)
+    assert (tick.stop_reason, tick.trim) == (WORKSPACE_LIMIT, 0.0)
+
+
+@pytest.mark.parametrize('deactivate', [True, False])
+def test_a_new_start_begins_without_a_trim(deactivate):
+    running = steadied()
+    drifting(running, 20)
+    if deactivate:
+        assert running.deactivate().trim == 0.0
+    running.activate(20.0)
+    running.feel(0.0, 20.0)
+    assert running.tick(20.0).trim == 0.0
+
+
+def test_without_joint_states_there_is_no_trim():
+    running = control()
+    running.steadying = Steadying(0.1)
+    for k in range(40):
+        running.feel(0.01 * math.sin(k), 10.0 + k * PERIOD)
+        assert running.tick(10.0 + k * PERIOD).trim == 0.0
+
+
+def test_without_the_angle_of_the_tip_there_is_no_trim():
+    running = steadied()
+    assert {tick.trim for tick in drifting(running, 20, psi=math.nan)} == {0.0}

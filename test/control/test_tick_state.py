@@ -22,7 +22,7 @@ from tactile_push.interface import CONTROLLER_STATE, TOPICS
 
 LAW = PushLaw(0.05, 5.0, -0.17)
 TICK = Tick(
-    *(PUSHING, NO_REASON, 0.1, 1.5, -0.004, 0.02, True, False, -0.03, 12, 1, 0.1, 0.01, 1.6),
+    *(PUSHING, NO_REASON, 0.1, 1.5, -0.004, 0.02, True, False, -0.03, 12, 1, 0.1, 0.01, 1.6, 0.02),
 )
 
 numbers = st.floats() | st.just(math.nan)
@@ -42,6 +42,7 @@ ticks = st.builds(
     elapsed=numbers,
     finger_age=numbers,
     psi=numbers,
+    trim=numbers,
 )
 
 
@@ -52,8 +53,14 @@ def test_every_number_stands_under_its_name():
         **{'theta': 0.1, 'theta_desired': -0.17, 'phi': 1.5, 'v_x': -0.004},
         **{'kp': 0.05, 'kd': 5.0, 'silence': 0.02, 'saturated': 1.0, 'limited': 0.0},
         **{'finger_x': -0.03, 'state': 2.0, 'stop_reason': 0.0, 'ticks': 12.0},
-        **{'ticks_lost': 1.0, 'elapsed': 0.1, 'finger_age': 0.01, 'psi': 1.6},
+        **{'ticks_lost': 1.0, 'elapsed': 0.1, 'finger_age': 0.01, 'psi': 1.6, 'trim': 0.02},
     }
+
+
+def test_the_desired_angle_is_told_as_the_law_used_it():
+    law = PushLaw(0.05, 5.0, -0.17)
+    law.trim = 0.02
+    assert tick_values(TICK, law)['theta_desired'] == -0.17 + 0.02
 
 
 def test_no_command_is_no_number():
@@ -76,14 +83,15 @@ def test_the_numbers_tell_the_control_period(tick):
     }
 
 
-def test_old_bags_lack_two_times_and_an_angle():
+def test_old_bags_lack_two_times_and_two_angles():
     values = tick_values(TICK, LAW)
-    del values['elapsed'], values['finger_age'], values['psi']
+    del values['elapsed'], values['finger_age'], values['psi'], values['trim']
     tick = tick_of(values)
     assert math.isnan(tick.elapsed)
     assert math.isnan(tick.finger_age)
     assert math.isnan(tick.psi)
-    assert replace(tick, elapsed=0.1, finger_age=0.01, psi=1.6) == TICK
+    assert tick.trim == 0.0
+    assert replace(tick, elapsed=0.1, finger_age=0.01, psi=1.6, trim=0.02) == TICK
 
 
 @pytest.mark.parametrize('name', ['theta', 'v_x', 'state', 'stop_reason', 'ticks'])

@@ -12,14 +12,30 @@ from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
 from support.node_bench import declared_topics
-from tactile_push.control import ANOTHER_COMMAND, PUSHING, STATES, STOP_REASONS, STOPPED, WAITING
-from tactile_push.interface import COMMAND, CONTACT, CONTROLLER_STATE, PUSH_CONTROLLER, TOPICS
+from tactile_push.control import (
+    ANOTHER_COMMAND,
+    PUSHING,
+    STATES,
+    STOP_REASONS,
+    STOPPED,
+    WAITING,
+    slow_mode,
+)
+from tactile_push.interface import (
+    COMMAND,
+    CONTACT,
+    CONTROLLER_STATE,
+    JOINT_STATES,
+    PUSH_CONTROLLER,
+    TOPICS,
+)
 from tactile_push.nodes.push_controller import PushController
-from tactile_push.nodes.ros.diagnostics import ERROR, OK
+from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN
 from tactile_push.nodes.ros.messages import filled
 from tactile_push.nodes.ros.parameters import ConfigurationError
-from tactile_push.pipeline.messages import pose_fields
+from tactile_push.pipeline.messages import joint_state_fields, pose_fields
 from tactile_push.pipeline.stamps import stamp_of
+from tactile_push.tactile.planar_finger import USUAL_FINGER
 
 RATE = {'control_rate': 50.0, 'max_ticks_lost': 100}
 
@@ -127,3 +143,77 @@ def test_a_control_that_is_none_is_refused(bench, parameters, refusal):
     with pytest.raises(ConfigurationError) as refused:
         bench.start(PushController, **parameters)
     assert str(refused.value).startswith(refusal)
+
+
+def at(bench, publisher, x):
+    """Return what publishes the joint states of the usual finger at x [m], straight across."""
+    joints = dict(zip(TOPICS[JOINT_STATES].field_names, USUAL_FINGER.inverse(x, 0.08), strict=True))
+
+    def publish():
+        stamp = bench.peer.get_clock().now().to_msg()
+        fields = joint_state_fields((stamp.sec, stamp.nanosec), joints)
+        publisher.publish(filled(JointState(), fields))
+
+    return publish
+
+
+def test_a_tip_that_makes_the_drift_grow_is_told_once_and_no_warning(bench):
+    node = bench.start(PushController, **RATE, theta_desired=0.0)
+    said = []
+    node.get_logger().info = said.append
+    bench.hear(JointState, CONTROLLER_STATE)
+    touch = feel(bench, bench.publisher(PoseStamped, CONTACT), 0.0)
+    place = at(bench, bench.publisher(JointState, JOINT_STATES), -0.06)
+
+    def meanwhile():
+        place()
+        touch()
+
+    def known():
+        return bench.heard[CONTROLLER_STATE] and bench.values(CONTROLLER_STATE)['ticks'] > 20
+
+    bench.until(known, meanwhile)
+    # The tip turns by -1/80 mm there, and l is that of the paper's block: see docs/theory.md.
+    (line,) = said
+    assert 'by -12.5 rad' in line
+    assert 'by e in 33 s' in line
+    assert bench.health == (OK, 'pushing')
+
+
+def test_steadying_that_cannot_hold_the_object_is_warned_of(bench):
+    short = {'steadying_max': 0.2, 'edge_distance': 0.015}
+    node = bench.start(PushController, **RATE, theta_desired=0.0, **short)
+    warned = []
+    node.get_logger().warning = warned.append
+    touch = feel(bench, bench.publisher(PoseStamped, CONTACT), 0.0)
+    place = at(bench, bench.publisher(JointState, JOINT_STATES), -0.06)
+    bench.until(lambda: warned, lambda: (place(), touch()))
+    assert warned[0].startswith('steadying_max: ')
+    assert 'edge_distance 0.015 m' in warned[0]
+
+
+def test_a_finger_that_is_soon_at_the_end_of_its_workspace_is_a_warning(bench, monkeypatch):
+    monkeypatch.setattr(slow_mode, 'AVERAGED', 0.1)
+    bench.start(PushController, **RATE, theta_desired=0.0, workspace_min=-0.0602)
+    bench.hear(JointState, CONTROLLER_STATE)
+    touch = feel(bench, bench.publisher(PoseStamped, CONTACT), 0.0)
+    publisher = bench.publisher(JointState, JOINT_STATES)
+    places = (-0.06 - 1e-6 * k for k in range(190))
+
+    def meanwhile():
+        at(bench, publisher, next(places, -0.06019))()
+        touch()
+
+    bench.until(lambda: bench.health[0] == WARN and 'drifts' in bench.health[1], meanwhile)
+    assert bench.health[1] == 'pushing, but drifts to the end of the workspace'
+
+
+def test_an_angle_that_could_be_trimmed_too_far_is_refused_while_it_runs(bench):
+    node = bench.start(PushController, theta_desired=1.2)
+    (result,) = node.set_parameters([RosParameter('steadying_max', value=0.4)])
+    assert not result.successful
+    assert result.reason.startswith('theta_desired: expected -1.1 to 1.1 rad')
+    assert node._control.steadying.bound == 0.0
+    (result,) = node.set_parameters([RosParameter('steadying_max', value=0.2)])
+    assert result.successful
+    assert node._control.steadying.bound == 0.2

@@ -7,13 +7,19 @@ import math
 import pytest
 
 from tactile_push.parameters import PushControllerParameters
-from tactile_push.parameters.push_controller import make_control, make_finger, take_values
+from tactile_push.parameters.push_controller import (
+    check_trimmed,
+    make_control,
+    make_finger,
+    take_values,
+)
 
 # Each number that may change while the node runs, and where it has to arrive.
 VALUES = {
     'kp': (0.1, lambda control: control.law.kp),
     'kd': (2.0, lambda control: control.law.kd),
     'theta_desired': (0.3, lambda control: control.law.theta_desired),
+    'steadying_max': (0.2, lambda control: control.steadying.bound),
     'contact_timeout': (0.7, lambda control: control.limits.contact_timeout),
     'max_ticks_lost': (5, lambda control: control.limits.max_ticks_lost),
     'max_speed': (0.03, lambda control: control.limits.max_speed),
@@ -24,6 +30,8 @@ VALUES = {
 FIXED = {
     'phi_min': (0.7, lambda control: control.law.phi_min),
     'phi_max': (2.0, lambda control: control.law.phi_max),
+    'edge_distance': (0.04, lambda control: control.steadying.l),
+    'finger_radius': (0.01, lambda control: control.steadying.r),
     'belt_speed': (0.008, lambda control: control.belt_speed),
     'workspace_min': (-0.2, lambda control: control.limits.workspace_min),
     'workspace_max': (0.3, lambda control: control.limits.workspace_max),
@@ -66,6 +74,20 @@ def test_the_finger_has_the_links_of_the_parameters():
 def test_a_finger_without_two_joints_is_refused(names):
     with pytest.raises(ValueError, match='joint_names: expected two different names'):
         make_control(PushControllerParameters(joint_names=names))
+
+
+@pytest.mark.parametrize(('desired', 'trim'), [(1.2, 0.4), (-1.2, 0.4), (1.01, 0.5)])
+def test_an_angle_that_could_be_trimmed_to_that_of_an_edge_that_faces_away_is_refused(
+    desired, trim
+):
+    p = PushControllerParameters(theta_desired=desired, steadying_max=trim)
+    with pytest.raises(ValueError, match=r'theta_desired: expected -1\.?\d* to 1\.?\d* rad'):
+        make_control(p)
+
+
+@pytest.mark.parametrize(('desired', 'trim'), [(1.5, 0.0), (-1.0, 0.5), (1.1, 0.375)])
+def test_an_angle_that_stays_within_reach_is_taken(desired, trim):
+    check_trimmed(PushControllerParameters(theta_desired=desired, steadying_max=trim))
 
 
 def test_an_empty_workspace_is_refused():

@@ -49,7 +49,7 @@ class Live:
         self.heard.append((self.now - age // 2, 'contact', theta, stamp_of(at)))
 
     def position(self, x, age):
-        self.control.locate_finger(x, seconds(self.now - age))
+        self.control.locate_finger(x, seconds(self.now - age), 1.5 - 12.0 * x)
 
     def tick(self):
         self.steady += 0.1
@@ -139,12 +139,16 @@ def happen(live, events):
 
 @pytest.mark.slow
 @CHECKED
-@given(events=st.lists(EVENTS, min_size=10, max_size=80), simulated=st.booleans())
-def test_whatever_happened_comes_out_again_to_the_bit(events, simulated):
-    live = Live(simulated)
+@given(
+    events=st.lists(EVENTS, min_size=10, max_size=80),
+    simulated=st.booleans(),
+    trim=st.sampled_from([0.0, 0.5]),
+)
+def test_whatever_happened_comes_out_again_to_the_bit(events, simulated, trim):
+    live = Live(simulated, steadying_max=trim)
     # One thing a control period at the most that is no reading.
     happen(live, [step for event in events for step in (event, ('tick',)) if event[0] != 'tick'])
-    assert same(replayed(live), live.ticks)
+    assert same(replayed(live, steadying_max=trim), live.ticks)
 
 
 def pushing(periods=20, **given):
@@ -157,10 +161,12 @@ def pushing(periods=20, **given):
     return live
 
 
+@pytest.mark.parametrize('trim', [0.0, 0.4])
 @pytest.mark.parametrize('cut', range(1, 20))
-def test_a_bag_that_begins_in_the_middle_is_followed_from_the_second_push_on(cut):
-    live = pushing()
-    ticks = replayed(live, start=cut)
+def test_a_bag_that_begins_in_the_middle_is_followed_from_the_second_push_on(cut, trim):
+    live = pushing(steadying_max=trim)
+    assert (live.ticks[-1][1].trim != 0.0) == (trim > 0.0)
+    ticks = replayed(live, start=cut, steadying_max=trim)
     kept = [tick for tick in ticks if tick.tick is None]
     assert len(kept) <= 3
     followed = ticks[len(kept) :]
@@ -195,6 +201,30 @@ def test_other_gains_give_what_a_controller_with_them_would_have_commanded():
     assert [t.recorded.v_x for t in ticks] == [tick.v_x for _, tick in live.ticks]
 
 
+def test_another_desired_angle_is_not_trimmed_by_what_was_felt_under_the_old_one():
+    live, other = pushing(steadying_max=0.4), pushing(theta_desired=0.1)
+    ticks = replayed(live, overridden=['theta_desired'], theta_desired=0.1, steadying_max=0.4)
+    assert [t.tick.v_x for t in ticks] == [tick.v_x for _, tick in other.ticks]
+    assert {t.tick.trim for t in ticks} == {0.0}
+
+
+def test_a_trim_that_was_changed_while_the_node_ran_comes_out_again():
+    live = pushing(10, steadying_max=0.4)
+    live.control.steadying.bound = 0.01
+    before = len(live.heard)
+    for k in range(10, 20):
+        live.contact(0.2 - 0.01 * k, 10_000_000)
+        live.position(0.001 * k, 5_000_000)
+        live.tick()
+    controller = ReplayedController(PushControllerParameters(steadying_max=0.4), (), EPOCH)
+    ticks = []
+    for at, (log_time, what, *rest) in enumerate(live.heard):
+        if at == before:
+            controller.change({'steadying_max': 0.01})
+        ticks += (controller.feel if what == 'contact' else controller.state)(*rest, log_time)
+    assert same([*ticks, *controller.finish()], live.ticks)
+
+
 def test_a_record_without_the_later_fields_can_be_followed():
     live = pushing()
     old = []
@@ -203,7 +233,7 @@ def test_a_record_without_the_later_fields_can_be_followed():
             message = rest[0]
             rest = [
                 SimpleNamespace(
-                    header=message.header, name=message.name[:-2], position=message.position[:-2]
+                    header=message.header, name=message.name[:-4], position=message.position[:-4]
                 )
             ]
         old.append((log_time, what, *rest))

@@ -66,6 +66,23 @@ def test_settling_is_around_the_angle_desired_at_the_time():
     assert (figures.theta_desired, figures.theta_desired_changes) == (0.5, 1)
 
 
+def test_a_trim_is_no_change_of_the_desired_angle_and_theta_settles_at_the_trimmed_one():
+    trims = [0.0, 0.1, 0.2, 0.3, 0.3]
+    rows = columns(
+        theta=[0.0, 0.1, 0.2, 0.55, 0.8], theta_desired=[0.5 + t for t in trims], trim=trims
+    )
+    figures = figures_of(rows)
+    assert figures.settle_step == 4
+    assert figures.theta_desired == pytest.approx(0.5)
+    assert figures.theta_desired_changes == 0
+    assert figures.trim_range == (0.0, 0.3)
+
+
+@pytest.mark.parametrize('given', [{}, {'trim': 0.0}])
+def test_without_steadying_there_is_no_range_of_a_trim(given):
+    assert figures_of([given] * 3).trim_range is None
+
+
 @pytest.mark.parametrize(
     ('steps', 'first'),
     [(1, 1), (3, 2), (90, 60), (100, 67), (399, 266), (400, 267), (401, 400), (450, 400)],

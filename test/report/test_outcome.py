@@ -4,6 +4,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from support.pushed_bag import (
@@ -11,6 +12,9 @@ from support.pushed_bag import (
     run_of,
     sensing_bag,
 )
+from tactile_push.paper import BLOCK
+from tactile_push.report.outcome import outcome_of
+from tactile_push.report.pushed import Pushed
 
 
 def test_outcome_has_what_follows_from_the_states(run):
@@ -42,3 +46,17 @@ def test_d_that_is_never_known_or_known_by_roundness(tmp_path, widths, row):
     run = run_of(sensing_bag(tmp_path / 'bag', widths, [0.0] * 3))
     outcome = {what: (here, paper) for what, here, paper in run.outcome}
     assert outcome.get('d known to 2 mm from step') == row
+
+
+def test_a_trim_is_told_and_the_paper_s_column_is_that_of_the_angle_asked_for():
+    asked, trim = math.radians(-10.0), math.radians(5.0)
+    columns = {'time': [0.0, 0.1, 0.2], 'theta': [0.1, 0.0, asked], 'phi': [1.5, 1.6, 1.6]}
+    columns |= {
+        'trim': [0.0, trim / 2.0, trim],
+        'theta_desired': [asked, asked + trim / 2.0, asked + trim],
+    }
+    table = {name: np.array(values) for name, values in columns.items()}
+    rows = {row.what: row for row in outcome_of(table, {}, Pushed(BLOCK))}
+    assert rows['θ_d [°]'].here == '-10.0'
+    assert rows['θ_d trimmed by [°]'].here == '0.0 to 5.0'
+    assert rows['θ within 3° of θ_d from step'].paper == '173'
