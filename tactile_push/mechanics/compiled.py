@@ -1,29 +1,39 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Compilation of the hot mathematics by numba, cached on disk."""
+"""Compilation of the hot mathematics by numba."""
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
-from pathlib import Path
+from contextlib import contextmanager
+from typing import Any
 
 import numba
 import numpy as np
 import numpy.typing as npt
 from numba.core import event
 
+from tactile_push.mechanics.machine_code import keep_machine_code
+
 Array = npt.NDArray[np.float64]
 
 # Products and sums may fuse; infinities keep their meaning, for mu_c has one.
 _REARRANGED = {'arcp', 'contract', 'nsz'}
-_OPTIONS = {'cache': True, 'nogil': True, 'error_model': 'numpy'}
 
-compiled = numba.njit(**_OPTIONS, fastmath=_REARRANGED)
-"""Decorator: compile at the first call, and keep the machine code beside the source."""
 
-equation = numba.njit(**_OPTIONS, fastmath=_REARRANGED, forceinline=True)
+def _compiling(fastmath: set[str], **options: bool) -> Callable[[Callable[..., Any]], Any]:
+    """Return a decorator that compiles a function as asked and keeps its machine code."""
+    compile_ = numba.njit(nogil=True, error_model='numpy', fastmath=fastmath, **options)
+    if numba.config.DISABLE_JIT:
+        return compile_
+    return lambda function: keep_machine_code(compile_(function))
+
+
+compiled = _compiling(_REARRANGED)
+"""Decorator: compile at the first call, and keep the machine code."""
+
+equation = _compiling(_REARRANGED, forceinline=True)
 """Decorator for equations: compiled into their callers, where a call would cost more than they."""
 
-reduction = numba.njit(**_OPTIONS, fastmath=_REARRANGED | {'reassoc'})
+reduction = _compiling(_REARRANGED | {'reassoc'})
 """Decorator for sums over many points, which may be taken in any order."""
 
 
@@ -51,20 +61,3 @@ class _Once(event.Listener):
 
     def on_end(self, event: event.Event) -> None:
         """Let a compilation end in silence."""
-
-
-def _forget_outdated(folder: Path) -> None:
-    """Remove cached code that is older than any source.
-
-    numba looks at the file of the function itself only, but the code holds the functions that it
-    calls as well.
-    """
-    newest = max(source.stat().st_mtime for source in folder.rglob('*.py'))
-    for cached in folder.rglob('__pycache__/*.nb[ic]'):
-        with suppress(FileNotFoundError):  # another process was faster
-            if cached.stat().st_mtime < newest:
-                cached.unlink()
-
-
-with suppress(OSError):  # a folder of somebody else's, whose cache numba keeps elsewhere
-    _forget_outdated(Path(__file__).parents[1])
