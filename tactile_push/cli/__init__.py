@@ -12,6 +12,7 @@ from typing import NoReturn
 
 from tactile_push.cli.arguments import Commands, Parser, Refused
 from tactile_push.needs_ros import ros_is_missing
+from tactile_push.streams import STANDARD_OUTPUT, prepare_streams
 
 # Exit statuses as shells give them to programs that SIGINT and SIGPIPE end.
 INTERRUPTED, READ_ENOUGH = 130, 141
@@ -41,6 +42,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, interrupt)
+    prepare_streams()
+    os.environ.pop('MPLBACKEND', None)  # a notebook's, which need not exist here; files need none
     try:
         name, options = _parse(arguments)
         command = f'tactile_push {name}'
@@ -64,12 +67,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if str(error):
                 print(f'{command}: {error}', file=sys.stderr)
             return error.status
+        if isinstance(error, MemoryError):
+            print(f'{command}: not enough memory', file=sys.stderr)
+            return 1
         if not isinstance(error, OSError):
             raise
-        if error.filename is None:
+        where = f'{error.filename}: ' if error.filename else ''
+        if error.filename == STANDARD_OUTPUT:
             _say_no_more()
-        where = error.filename or 'standard output'
-        print(f'{command}: {where}: {error.strerror}', file=sys.stderr)
+        print(f'{command}: {where}{error.strerror or error}', file=sys.stderr)
         return 2
 
 

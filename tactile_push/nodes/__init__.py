@@ -9,6 +9,7 @@ from pathlib import Path
 from types import FrameType
 
 from tactile_push.needs_ros import ros_is_missing
+from tactile_push.streams import prepare_streams
 
 
 def _end_at_once(signum: int, frame: FrameType | None) -> None:
@@ -28,6 +29,7 @@ def _is_imported_by_a_node() -> bool:
 
 
 if _is_imported_by_a_node():
+    prepare_streams()
     # A node that is interrupted while it still imports has nothing to stop and nothing to say.
     signal.signal(signal.SIGINT, _end_at_once)
     signal.signal(signal.SIGTERM, _end_at_once)
@@ -35,7 +37,11 @@ if _is_imported_by_a_node():
         from tactile_push.parameters.help import node_help
 
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # its reader may stop early, such as `head`
-        print(node_help(_name()))
+        try:
+            print(node_help(_name()), flush=True)
+        except OSError as error:
+            print(f'{_name()}: {error.filename}: {error.strerror}', file=sys.stderr)
+            os._exit(2)  # or Python would try again
         sys.exit()
     if ros_is_missing(_name()):
         sys.exit(2)

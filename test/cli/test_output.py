@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """What commands do when what they write cannot be written, or nobody reads it."""
 
+import errno
 import json
 import math
 import os
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -39,6 +42,47 @@ def test_full_standard_output_is_said_and_is_no_difference(arguments):
     )
 
 
+def test_error_without_a_file_is_not_blamed_on_standard_output(monkeypatch, command):
+    for error, words, status in (
+        (OSError(errno.ENOMEM, 'Cannot allocate memory'), 'Cannot allocate memory', 2),
+        (FileNotFoundError(errno.ENOENT, 'No such file or directory'), 'No such file', 2),
+        (OSError('cannot load library'), 'cannot load library', 2),
+        (MemoryError(), 'not enough memory', 1),
+    ):
+
+        def fail(*arguments, error=error, **options):
+            raise error
+
+        monkeypatch.setattr('tactile_push.cli.info._info', fail)
+        code, out, err = command('info', BAG)
+        assert (code, out) == (status, '')
+        assert err.startswith(f'tactile_push info: {words}')
+        assert 'standard output' not in err
+
+
+def test_folder_that_is_gone_is_no_fault_of_standard_output(tmp_path):
+    program = (
+        f'import os, sys; os.rmdir({str(tmp_path / "gone")!r}); '
+        'from tactile_push.cli import main; sys.exit(main(["info", "bag"]))'
+    )
+    (tmp_path / 'gone').mkdir()
+    done = subprocess.run(
+        [sys.executable, '-c', program], cwd=tmp_path / 'gone', capture_output=True, text=True
+    )
+    assert done.returncode == 2
+    assert done.stderr == 'tactile_push info: bag: No such file or directory\n'
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize('backend', ['module://matplotlib_inline.backend_inline', 'TkAgg', 'none'])
+def test_backend_of_somebody_elses_matplotlib_has_no_effect(backend, tmp_path):
+    environment = {**os.environ, 'MPLBACKEND': backend}
+    words = ('simulate', '--steps', '3', '--plot', tmp_path / 'plot.png')
+    done = run_command(*words, env=environment)
+    assert (done.returncode, done.stderr) == (0, '')
+    assert (tmp_path / 'plot.png').read_bytes().startswith(b'\x89PNG')
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     'command',
@@ -62,7 +106,11 @@ def test_closed_pipe_is_silent_and_is_no_difference(command):
 def test_bag_that_cannot_be_written_is_not_left_behind(command, tmp_path: Path):
     done = run_command(command, BAG, '-o', tmp_path / 'again', preexec_fn=few_bytes)
     assert done.returncode == 2
-    (line,) = done.stderr.splitlines()
+    (line,) = (
+        line
+        for line in done.stderr.splitlines()
+        if 'machine code cannot be kept' not in line  # where there is none yet
+    )
     assert line.startswith(f'tactile_push {command}: {tmp_path / "again"}')
     assert line.endswith(': File too large')
     assert list(tmp_path.iterdir()) == []

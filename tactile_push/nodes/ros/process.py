@@ -17,6 +17,7 @@ from rclpy.utilities import remove_ros_args
 
 from tactile_push.nodes.ros.executor import Executor
 from tactile_push.nodes.ros.last_resort import exit_after
+from tactile_push.nodes.ros.log_files import log_arguments
 from tactile_push.nodes.ros.parameters import ConfigurationError
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # by a person, a manager, a terminal
@@ -42,9 +43,10 @@ def run(node_class: type[Node]) -> int:
     set_logger_level('rcl', LoggingSeverity.FATAL)  # it logs what it also throws
     try:
         foreign = remove_ros_args(sys.argv)[1:]
-        rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
+        args = [*sys.argv, *log_arguments(node_class.NAME)]
+        rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     except Exception as error:  # rcl's own exception types are not public
-        return _refuse(node_class, f'bad ROS arguments: {_brief(error)}')
+        return _refuse(node_class, _brief(error))
     set_logger_level('rcl', LoggingSeverity.UNSET)
     try:
         if foreign:
@@ -89,7 +91,7 @@ def run(node_class: type[Node]) -> int:
 def _brief(error: Exception) -> str:
     """Return rcl's words on one line, without the places in its source."""
     words = ' '.join(re.sub(r',\s+at \S+:\d+', '', str(error)).split())
-    return words.removeprefix('Failed to parse ROS arguments: ')
+    return words.replace('Failed to parse ROS arguments', 'bad ROS arguments')
 
 
 def _refuse(node_class: type[Node], reason: str) -> int:

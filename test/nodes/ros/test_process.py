@@ -250,6 +250,28 @@ def test_help_whose_reader_has_read_enough_ends_in_silence(environment):
     assert (process.returncode, err) == (-signal.SIGPIPE, b'')  # 141 in a shell
 
 
+@pytest.mark.skipif(not Path('/dev/full').exists(), reason='needs /dev/full')
+def test_help_that_cannot_be_written_is_said_in_one_line(environment):
+    with open('/dev/full', 'w') as full:
+        done = subprocess.run(
+            command('push_controller', '--help'),
+            env=environment,
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            timeout=PATIENCE,
+        )
+    assert done.returncode == 2
+    assert done.stderr == 'push_controller: standard output: No space left on device\n'
+
+
+def test_help_is_plain_where_the_terminal_knows_few_characters(environment):
+    done = finish({**environment, 'PYTHONIOENCODING': 'ascii'}, 'push_controller', '--help')
+    assert (done.returncode, done.stderr) == (0, '')
+    assert done.stdout.isascii()
+    assert '...' in done.stdout
+
+
 def refused(environment, *arguments, node='contact_geometry'):
     """Return the one line with which a node refuses to start."""
     done = finish(environment, node, *arguments)
