@@ -20,6 +20,7 @@ from tactile_push.interface import (
     CONTROLLER_STATE,
     PARAMETER_EVENTS,
     RECORDED,
+    SENSING_STATE,
 )
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare, refusing
 from tactile_push.nodes.ros.process import run
@@ -97,7 +98,9 @@ class Experiment(Node):
         )
 
     def _report(self) -> None:
-        steps = self._recording.recorder.counts[self.resolve_topic_name(COMMAND)]
+        # What is sensed comes last; on a loaded machine it may lag behind.
+        counts = self._recording.recorder.counts
+        steps = min(counts[self.resolve_topic_name(topic)] for topic in (COMMAND, SENSING_STATE))
         if steps != self._steps:
             self._steps = steps
             print(steps, flush=True)

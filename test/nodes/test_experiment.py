@@ -66,9 +66,11 @@ def test_what_was_published_is_in_the_bag_afterwards(bench, tmp_path):
 def test_steps_are_told_and_the_last_one_ends_the_experiment(bench, tmp_path, capsys):
     node = bench.start(Experiment, bag=tmp_path / 'bag', steps=3)
     node._transitions.clear()  # as once the controller is active
-    for commands in (1, 1, 3, 4):
+    counts = node._recording.recorder.counts
+    # What is sensed comes last, so it counts.
+    for commands, sensed in ((1, 1), (1, 1), (4, 3), (5, 3), (6, 4)):
         assert node.context.ok()
-        node._recording.recorder.counts['/finger/cmd_vel'] = commands
+        counts['/finger/cmd_vel'], counts['/active_sensing/state'] = commands, sensed
         node._look()
     assert not node.context.ok()
     assert capsys.readouterr().out.split() == ['1', '3', '4']
