@@ -14,6 +14,7 @@ NODES = runpy.run_path(str(Path(__file__).parent / NAME / 'interface.py'))['NODE
 
 # Wheels of ROS 2 exist for these machines alone; elsewhere ROS comes from a workspace.
 WHEELS = "platform_system == 'Linux' and platform_machine == 'x86_64' and python_version < '3.14'"
+MUJOCO = 'mujoco>=3.2,<5'  # for 0.1 GB, and 2 s with a fast connection
 
 setup(
     name=NAME,
@@ -49,6 +50,7 @@ setup(
             'sphinx>=7.2,<10',
             'sphinx-rtd-theme>=2,<4',
         ],
+        'mujoco': [MUJOCO],
         'ros': [
             f'ros-jazzy-common-interfaces>=5.3,<6; {WHEELS}',
             f'ros-jazzy-rclpy[fastrtps]>=7.1,<8; {WHEELS}',
@@ -59,6 +61,7 @@ setup(
             'colcon-ros>=0.5,<1',
             'hypothesis>=6,<7',
             'import-linter>=2.1,<3',
+            MUJOCO,
             'mypy>=1.13,<3',
             'numpydoc>=1.8,<2',
             'playwright>=1.45,<2',

@@ -17,6 +17,7 @@ from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
+from tactile_push.interface import MUJOCO_PLANT, SIM_PLANT
 from tactile_push.parameters import PushControllerParameters, SimPlantParameters
 from tactile_push.testing.processes import loopback
 
@@ -29,6 +30,12 @@ def generate_launch_description() -> LaunchDescription:
     arguments = [
         DeclareLaunchArgument(
             'object', default_value='block', choices=['block', 'disk'], description='what is pushed'
+        ),
+        DeclareLaunchArgument(
+            'plant',
+            default_value=SIM_PLANT,
+            choices=[SIM_PLANT, MUJOCO_PLANT],
+            description='which node simulates',
         ),
         DeclareLaunchArgument(
             'kp', default_value=str(LAW.kp), description='proportional gain [rad/rad]'
@@ -63,7 +70,7 @@ def generate_launch_description() -> LaunchDescription:
             condition=IfCondition(LaunchConfiguration('rviz')),
         ),
         _node(
-            'sim_plant',
+            LaunchConfiguration('plant'),
             config,
             device,
             {'publish_clock': True, 'real_time_factor': _number('real_time_factor')},
@@ -99,7 +106,7 @@ def _number(argument: str) -> ParameterValue:
     return ParameterValue(LaunchConfiguration(argument), value_type=float)
 
 
-def _node(executable: str, *parameters: object) -> Node:
+def _node(executable: str | LaunchConfiguration, *parameters: object) -> Node:
     return Node(
         package='tactile_push',
         executable=executable,

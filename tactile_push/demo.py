@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""The demonstration: both rigs of the paper, as real nodes against the simulated plant."""
+"""The demonstration: both rigs of the paper, as real nodes against a simulated plant."""
 
 import os
 import shutil
@@ -76,19 +76,21 @@ class DemoError(Exception):
     """The demonstration could not be run; the message says why."""
 
 
-def run_demo(out: Path, progress: Callable[[str, int], None]) -> dict[str, RigResult]:
+def run_demo(
+    out: Path, progress: Callable[[str, int], None], plant: str = SIM_PLANT
+) -> dict[str, RigResult]:
     """Run both rigs, record them, draw their history and return the results by rig.
 
     The bags NAME/ and the picture history.png go to the folder `out` and replace those of an
-    earlier demonstration. `progress` is told the rig's name and the number of steps done. Raises a
-    `DemoError` if a process ends early or nothing moves on, and an OSError if the folder cannot be
-    written.
+    earlier demonstration. `progress` is told the rig's name and the number of steps done. `plant`
+    is the node that simulates. Raises a `DemoError` if a process ends early or nothing moves on,
+    and an OSError if the folder cannot be written.
     """
     out.mkdir(parents=True, exist_ok=True)
     results = {}
     panels = {}
     for name, paper in RIGS.items():
-        wall_seconds = _run_rig(name, out / name, partial(progress, name))
+        wall_seconds = _run_rig(plant, name, out / name, partial(progress, name))
         results[name], theta, phi = _evaluate(paper, out / name, wall_seconds)
         settled = results[name].push.settle_step
         panels[TITLES[name]] = theta, phi, paper.theta_desired, paper.band, settled
@@ -96,14 +98,14 @@ def run_demo(out: Path, progress: Callable[[str, int], None]) -> dict[str, RigRe
     return results
 
 
-def _run_rig(name: str, bag: Path, progress: Callable[[int], None]) -> float:
+def _run_rig(plant: str, name: str, bag: Path, progress: Callable[[int], None]) -> float:
     """Run one rig into a bag and return the time that it took [s]."""
     start = time.monotonic()
     shutil.rmtree(bag, ignore_errors=True)
     config = config_file(f'{name}.yaml')
     with tempfile.TemporaryDirectory(prefix='tactile_push_') as folder:
         device = os.path.join(folder, 'sensor')
-        plant = {
+        settings = {
             'device': device,
             'sensor_rate': SENSOR_RATE,
             'publish_clock': True,
@@ -111,7 +113,7 @@ def _run_rig(name: str, bag: Path, progress: Callable[[int], None]) -> float:
         }
         simulated = {'use_sim_time': True}
         with NodeProcesses(Path(folder)) as nodes:
-            nodes.start(SIM_PLANT, plant, config=config)
+            nodes.start(plant, settings, config=config)
             nodes.start(SENSOR_DRIVER, {'device': device, **simulated})
             nodes.start(CONTACT_GEOMETRY, simulated, config=config)
             nodes.start(PUSH_CONTROLLER, {'autostart': False, **simulated}, config=config)

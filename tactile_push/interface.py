@@ -66,6 +66,8 @@ CONTACT_GEOMETRY = 'contact_geometry'
 PUSH_CONTROLLER = 'push_controller'
 ACTIVE_SENSING = 'active_sensing'
 SIM_PLANT = 'sim_plant'
+MUJOCO_PLANT = 'mujoco_plant'
+PLANTS = (SIM_PLANT, MUJOCO_PLANT)  # one of which takes the place of the hardware
 EXPERIMENT = 'experiment'
 BAG_RECORDER = 'bag_recorder'
 BAG_PLAYER = 'bag_player'
@@ -116,6 +118,10 @@ NODES = {
             'infers where the finger touches the object and where its centre of mass is',
         ),
         NodeSummary(SIM_PLANT, 'simulates belt, object, finger and sensor in place of hardware'),
+        NodeSummary(
+            MUJOCO_PLANT,
+            'does the same in MuJoCo, with a finger of joints and a push above the belt',
+        ),
         NodeSummary(EXPERIMENT, 'starts the controller, records a run and ends after N steps'),
         NodeSummary(BAG_RECORDER, 'records topics into a bag'),
         NodeSummary(BAG_PLAYER, 'publishes the messages of a bag with their timing'),
@@ -147,7 +153,7 @@ TOPICS = {
                 Field('normal_force', 'N', 'normal force, in `effort` instead', array='effort'),
             ),
         ),
-        Topic(JOINT_STATES, JOINT_STATE_TYPE, ('the finger', SIM_PLANT),
+        Topic(JOINT_STATES, JOINT_STATE_TYPE, ('the finger', *PLANTS),
             (CONTACT_GEOMETRY, PUSH_CONTROLLER),
             'angles of the moving joints of the finger; the parameters `joint_names` name them',
             (
@@ -155,7 +161,7 @@ TOPICS = {
                 Field('distal_joint', 'rad', 'angle of the second moving joint'),
             ),
         ),
-        Topic(CONTACT, POSE_TYPE, (CONTACT_GEOMETRY,), (PUSH_CONTROLLER, SIM_PLANT),
+        Topic(CONTACT, POSE_TYPE, (CONTACT_GEOMETRY,), (PUSH_CONTROLLER, *PLANTS),
             'in `finger_disk`: the position is the contact point [m], the yaw is theta [rad]; '
             'stamped as the reading; nothing is published without a contact',
         ),
@@ -169,7 +175,7 @@ TOPICS = {
                 Field('refusal', '', 'why the reading was refused', 'tactile.REFUSALS'),
             ),
         ),
-        Topic(COMMAND, TWIST_TYPE, (PUSH_CONTROLLER,), ('the finger', SIM_PLANT, PUSH_CONTROLLER),
+        Topic(COMMAND, TWIST_TYPE, (PUSH_CONTROLLER,), ('the finger', *PLANTS, PUSH_CONTROLLER),
             'in `finger_base`: `linear.x` [m/s]; nothing before the first contact, 0 when the '
             'contact is lost',
         ),
@@ -223,10 +229,10 @@ TOPICS = {
             'guaranteed interval; published while somebody subscribes',
             recorded=False,
         ),
-        Topic(TRUE_POSE, POSE_TYPE, (SIM_PLANT,), (),
+        Topic(TRUE_POSE, POSE_TYPE, PLANTS, (),
             "in `finger_disk`: the object's true centre of mass and orientation",
         ),
-        Topic(TRUE_STATE, JOINT_STATE_TYPE, (SIM_PLANT,), (),
+        Topic(TRUE_STATE, JOINT_STATE_TYPE, PLANTS, (),
             'what only the simulator knows',
             (
                 Field('theta', 'rad', 'true angle of the edge; NaN without a contact'),
@@ -240,11 +246,11 @@ TOPICS = {
                 Field('belt_travel', 'm', 'how far the belt has moved'),
             ),
         ),
-        Topic(MARKERS, MARKERS_TYPE, (SIM_PLANT,), (),
+        Topic(MARKERS, MARKERS_TYPE, PLANTS, (),
             'finger, object, belt, contact normal, friction cone and push ray',
             recorded=False,
         ),
-        Topic(CLOCK, 'rosgraph_msgs/msg/Clock', (SIM_PLANT, BAG_PLAYER), tuple(NODES),
+        Topic(CLOCK, 'rosgraph_msgs/msg/Clock', (*PLANTS, BAG_PLAYER), tuple(NODES),
             "simulated time, with the parameter `publish_clock`; a bag's time, with `clock`; nodes "
             'with `use_sim_time` follow it',
         ),

@@ -110,7 +110,7 @@ KEYS = {
     'mpl_toolkits': 'python3-matplotlib',
     'zstandard': 'mcap-ros2-support',
 }
-NO_KEY = {'plotly'}  # the manual says how to install it
+NO_KEY = {'mujoco', 'plotly'}  # the manual says how to install it
 OWN = {'tactile_push', 'support', 'faults', 'fuzzing', 'soaking', 'estimating', 'conftest'}
 
 
@@ -122,9 +122,11 @@ def foreign(folder):
 def test_setup_requires_what_the_package_imports_and_nothing_else(setup):
     pytest.importorskip('plotly')
     projects = packages_distributions()
-    modules = {name for name in foreign(ROOT) if not ROS.fullmatch(name)} - {'pytest'}
+    modules = {name for name in foreign(ROOT) if not ROS.fullmatch(name)}
+    modules -= {'pytest', 'mujoco'}  # of the extras
     needed = {projects[name][0].lower().replace('_', '-') for name in modules}
     assert installed(setup['install_requires']) == needed
+    assert installed(setup['extras_require']['mujoco']) == {'mujoco'}
     assert all('x86_64' in line for line in setup['extras_require']['ros'])
     assert installed(setup['extras_require']['ros']) == {
         'ros-jazzy-common-interfaces',

@@ -8,10 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tactile_push.cli.arguments import Commands, Refused
+from tactile_push.interface import MUJOCO_PLANT, SIM_PLANT
+from tactile_push.needs_mujoco import mujoco_is_missing
 from tactile_push.paper import DISK
 
 if TYPE_CHECKING:
     from tactile_push.demo import RigResult
+
+PHYSICS = {'paper': SIM_PLANT, 'mujoco': MUJOCO_PLANT}
 
 
 def add(commands: Commands) -> None:
@@ -31,6 +35,13 @@ def add(commands: Commands) -> None:
         metavar='DIR',
         help='folder for history.png and the bags block/ and disk/ (default: out)',
     )
+    demo.add_argument(
+        '--physics',
+        choices=tuple(PHYSICS),
+        default='paper',
+        help="who simulates: the paper's mechanics, or MuJoCo with a finger of joints and a push "
+        'above the belt (default: paper)',
+    )
     demo.add_argument('--json', action='store_true', help='print one JSON object, SI units')
     demo.set_defaults(run=_demo, ros=True)
 
@@ -49,12 +60,16 @@ def _demo(options: argparse.Namespace) -> int:
         TimeElapsedColumn(),
         console=Console(stderr=True),
     )
+    plant = PHYSICS[options.physics]
+    if plant == MUJOCO_PLANT and mujoco_is_missing('tactile_push demo'):
+        return 2
     tasks = {name: bar.add_task(name, total=demo.STEPS) for name in demo.RIGS}
     try:
         with naming(options.out), bar:
             results = demo.run_demo(
                 options.out,
                 lambda name, steps: bar.update(tasks[name], completed=min(steps, demo.STEPS)),
+                plant,
             )
     except demo.DemoError as error:
         raise Refused(error, status=1) from None

@@ -12,7 +12,7 @@ from tactile_push.parameters.sim_plant import SimPlantParameters, faults, rig_co
 from tactile_push.simulation import Rig
 
 
-class SimPlant(PlantNode):
+class SimPlant(PlantNode[SimPlantParameters]):
     """Node: the simulated rig."""
 
     NAME = SIM_PLANT

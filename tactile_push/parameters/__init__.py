@@ -9,6 +9,7 @@ from tactile_push.parameters.bag_recorder import BagRecorderParameters
 from tactile_push.parameters.config_file import config_file
 from tactile_push.parameters.contact_geometry import ContactGeometryParameters
 from tactile_push.parameters.experiment import ExperimentParameters
+from tactile_push.parameters.mujoco_plant import MujocoPlantParameters
 from tactile_push.parameters.parameter import NodeParameters, Parameter
 from tactile_push.parameters.push_controller import PushControllerParameters
 from tactile_push.parameters.sensor_driver import SensorDriverParameters
@@ -20,6 +21,7 @@ PARAMETERS: dict[str, type[NodeParameters]] = {
     interface.PUSH_CONTROLLER: PushControllerParameters,
     interface.ACTIVE_SENSING: ActiveSensingParameters,
     interface.SIM_PLANT: SimPlantParameters,
+    interface.MUJOCO_PLANT: MujocoPlantParameters,
     interface.EXPERIMENT: ExperimentParameters,
     interface.BAG_RECORDER: BagRecorderParameters,
     interface.BAG_PLAYER: BagPlayerParameters,
@@ -33,6 +35,7 @@ __all__ = [
     'BagRecorderParameters',
     'ContactGeometryParameters',
     'ExperimentParameters',
+    'MujocoPlantParameters',
     'NodeParameters',
     'Parameter',
     'PushControllerParameters',

@@ -9,7 +9,7 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from tactile_push.interface import ACTIVE_SENSING, SIM_PLANT, node_in
+from tactile_push.interface import ACTIVE_SENSING, PLANTS, node_in
 from tactile_push.paper import (
     BLOCK,
     BLOCK_EDGE,
@@ -21,7 +21,7 @@ from tactile_push.paper import (
 )
 from tactile_push.parameters import ActiveSensingParameters
 
-# The parameters of `sim_plant` that are the sizes of an object, l last, and the paper's values.
+# The parameters of a plant that are the sizes of an object, l last, and the paper's values.
 SIZES = {
     BLOCK: {'edge_length': BLOCK_EDGE, 'edge_to_cm': BLOCK_L},
     DISK: {'disk_radius': DISK_RADIUS},
@@ -40,7 +40,7 @@ class Pushed(NamedTuple):
 
 def pushed_object(parameters: Mapping[str, Mapping[str, object]], namespace: str) -> Pushed:
     """Return what the finger in a namespace pushed, by the parameters of its nodes."""
-    plant, sensing = (node_in(namespace, node) for node in (SIM_PLANT, ACTIVE_SENSING))
+    plant, sensing = plant_in(namespace, parameters), node_in(namespace, ACTIVE_SENSING)
     pushed, l = plant_object(parameters.get(plant, {}))
     told, possible = _told_object(parameters.get(sensing, {}))
     words = ' or '.join(f'{one * 1e3:g}' for one in possible) + ' mm'
@@ -57,6 +57,12 @@ def pushed_object(parameters: Mapping[str, Mapping[str, object]], namespace: str
         )
         return Pushed(pushed, l, why)
     return Pushed(pushed, l)
+
+
+def plant_in(namespace: str, parameters: Mapping[str, Mapping[str, object]]) -> str:
+    """Return the name of a finger's simulated plant, by which its recorded parameters go."""
+    names = [node_in(namespace, node) for node in PLANTS]
+    return next((name for name in names if name in parameters), names[0])
 
 
 def plant_object(plant: Mapping[str, object]) -> tuple[str | None, float | None]:

@@ -16,12 +16,10 @@ from tactile_push.interface import (
     GEOMETRY_STATE,
     OBJECT_POSE,
     SENSING_STATE,
-    SIM_PLANT,
     TACTILE,
     TRUE_POSE,
     TRUE_STATE,
     VERSION_NOTE,
-    node_in,
 )
 from tactile_push.report.columns import (
     Statuses,
@@ -34,7 +32,7 @@ from tactile_push.report.columns import (
 from tactile_push.report.data import ERROR, NOTE, WARNING, Episode, Run, Series
 from tactile_push.report.episodes import Label, episodes, joined
 from tactile_push.report.outcome import outcome_of
-from tactile_push.report.pushed import pushed_object
+from tactile_push.report.pushed import plant_in, pushed_object
 from tactile_push.report.scene import scene_of
 from tactile_push.tactile import REFUSALS
 
@@ -111,7 +109,7 @@ def read_run(bag: BagReader, progress: Callable[[int], None] = lambda done: None
         parameters = node_parameters(bag) or {}
     except ValueError:
         parameters = {}
-    plant = parameters.get(node_in(namespace, SIM_PLANT))
+    plant = parameters.get(plant_in(namespace, parameters))
     duration = (bag.end_time - bag.start_time) * 1e-9
     series = _series(tables)
     ticks = tables.get(CONTROLLER_STATE, {})

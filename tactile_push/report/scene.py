@@ -27,7 +27,7 @@ TRIED = 50  # contacts, spread over the run; picked
 def scene_of(plant: Mapping[str, object] | None, tables: Mapping[str, Table]) -> Scene:
     """Return what was pushed by what, without an object if that is not known.
 
-    If the bag has no parameters of `sim_plant`, an object with a pose is taken for the paper's
+    If the bag has no parameters of a plant, an object with a pose is taken for the paper's
     block or disk if the contacts lie on its outline.
     """
     radius = _radius(tables)

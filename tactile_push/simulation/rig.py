@@ -214,16 +214,8 @@ class Rig:
     @property
     def contact_directions(self) -> dict[str, tuple[float, float]]:
         """Unit vectors at the contact: 'normal', 'left' and 'right' (friction cone), 'push'."""
-        normal = self.theta + math.pi / 2.0
         cos_alpha, sin_alpha = self._friction_cone
-        alpha = math.atan2(sin_alpha, cos_alpha)
-        angles = {
-            'normal': normal,
-            'left': normal + alpha,
-            'right': normal - alpha,
-            'push': self.phi,
-        }
-        return {name: (math.cos(angle), math.sin(angle)) for name, angle in angles.items()}
+        return directions(self.theta, math.atan2(sin_alpha, cos_alpha), self.phi)
 
     def reading(self) -> Reading:
         """Read the sensor.
@@ -303,3 +295,21 @@ class Rig:
         )
         self.finger_x += v_x * duration
         self.finger_y += v_y * duration
+
+
+def directions(theta: float, alpha: float, phi: float) -> dict[str, tuple[float, float]]:
+    """Return unit vectors at a contact.
+
+    Parameters
+    ----------
+    theta, alpha, phi : float
+        Angle of the edge or tangent, half angle of the friction cone, direction of the push [rad].
+
+    Returns
+    -------
+    dict of str to tuple of float
+        'normal', 'left' and 'right' (friction cone), 'push'.
+    """
+    normal = theta + math.pi / 2.0
+    angles = {'normal': normal, 'left': normal + alpha, 'right': normal - alpha, 'push': phi}
+    return {name: (math.cos(angle), math.sin(angle)) for name, angle in angles.items()}

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The table of the demonstration, from results that are made up."""
 
+import sys
 from pathlib import Path
 
 import pytest
 
 from support.demo_results import results
+from tactile_push.cli import main
 from tactile_push.cli.demo import _print
 
 
@@ -28,3 +30,12 @@ def test_results_stand_beside_the_papers(capsys, monkeypatch, step, shown):
     assert rows['φ from step 400 [°]'] == ['82.5 to 82.5', '80.2 to 85.8', '82.5 to 82.5', '']
     # Of the disk d is 0 by its roundness.
     assert rows['d known to 2 mm from step'] == [shown, '400', '', '']
+
+
+def test_without_mujoco_it_says_what_to_install(capsys, monkeypatch, tmp_path):
+    pytest.importorskip('rclpy')
+    monkeypatch.setitem(sys.modules, 'mujoco', None)
+    assert main(['demo', '--physics', 'mujoco', '-o', str(tmp_path / 'out')]) == 2
+    needs = "tactile_push demo: needs MuJoCo: pip install 'tactile_push[mujoco]'\n"
+    assert capsys.readouterr() == ('', needs)
+    assert not (tmp_path / 'out').exists()

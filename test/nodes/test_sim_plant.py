@@ -1,31 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""The simulated rig's node: commands in; joints, readings and the truth out."""
-
-import math
+"""The package's own rig as a node; what a plant does is tested there."""
 
 import pytest
-from geometry_msgs.msg import PoseStamped, TwistStamped
-from rclpy.parameter import Parameter as RosParameter
-from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import JointState
 
 from support.node_bench import declared_topics
-from tactile_push.devices.device import Device
-from tactile_push.devices.stream import SentenceStream
-from tactile_push.interface import (
-    CLOCK,
-    COMMAND,
-    JOINT_STATES,
-    SIM_PLANT,
-    TOPICS,
-    TRUE_POSE,
-    TRUE_STATE,
-)
-from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN
+from tactile_push.interface import SIM_PLANT
 from tactile_push.nodes.ros.parameters import ConfigurationError
 from tactile_push.nodes.sim_plant import SimPlant
-from tactile_push.pipeline.stamps import stamp_of
 
 
 @pytest.fixture
@@ -36,124 +18,9 @@ def plant(bench, tmp_path):
     )
 
 
-def command(v_x):
-    message = TwistStamped()
-    message.twist.linear.x = v_x
-    return message
-
-
 def test_topics_are_those_of_the_interface(bench, plant):
     plant(publish_clock=True)
     assert bench.topics() == declared_topics(SIM_PLANT)
-
-
-def test_before_the_first_command_the_belt_stands(bench, plant):
-    plant(theta_initial=0.25, d_initial=0.004)
-    bench.hear(JointState, TRUE_STATE, JOINT_STATES)
-    bench.until(lambda: len(bench.heard[TRUE_STATE]) > 3 and bench.heard[JOINT_STATES])
-    state = bench.values(TRUE_STATE)
-    assert tuple(state) == TOPICS[TRUE_STATE].field_names
-    assert tuple(bench.values(JOINT_STATES)) == TOPICS[JOINT_STATES].field_names
-    assert (state['theta'], state['d']) == pytest.approx((0.25, 0.004))
-    assert state['finger_x'] == state['belt_travel'] == state['v_x'] == 0.0
-    assert bench.health == (OK, 'belt stands, waiting for the first command')
-
-
-def test_a_command_moves_the_finger_and_starts_the_belt(bench, plant):
-    plant(command_timeout=10.0)
-    bench.hear(JointState, TRUE_STATE)
-    bench.publisher(TwistStamped, COMMAND).publish(command(0.01))
-    bench.until(lambda: bench.heard[TRUE_STATE] and bench.values(TRUE_STATE)['belt_travel'] > 5e-4)
-    state = bench.values(TRUE_STATE)
-    assert (state['v_x'], state['v_x_commanded']) == (0.01, 0.01)
-    # The finger goes at 10 mm/s across a belt at 5 mm/s.
-    assert state['belt_speed'] == 0.005
-    assert state['finger_x'] == pytest.approx(2.0 * state['belt_travel'])
-    assert state['phi'] == pytest.approx(math.atan2(0.005, 0.01))
-    assert bench.health == (OK, 'pushing')
-
-
-def test_the_truth_about_the_block_is_where_geometry_has_it(bench, plant):
-    plant(theta_initial=0.25, d_initial=0.004)
-    bench.hear(PoseStamped, TRUE_POSE)
-    bench.until(lambda: bench.heard[TRUE_POSE])
-    pose = bench.heard[TRUE_POSE][-1]
-    assert pose.header.frame_id == 'finger_disk'
-    # From the finger's centre straight through the edge, across r and l, and back along d.
-    ahead, back = 0.0135 + 0.02375, 0.004
-    place, turn = pose.pose.position, pose.pose.orientation
-    assert place.x == pytest.approx(-ahead * math.sin(0.25) - back * math.cos(0.25))
-    assert place.y == pytest.approx(ahead * math.cos(0.25) - back * math.sin(0.25))
-    assert 2.0 * math.atan2(turn.z, turn.w) == pytest.approx(0.25)
-
-
-@pytest.mark.parametrize(
-    ('v_x', 'obeyed', 'counted'),
-    [
-        (5.0, 0.1, 'commands too fast'),
-        (-5.0, -0.1, 'commands too fast'),
-        (math.inf, 0.0, 'commands not finite'),
-        (math.nan, 0.0, 'commands not finite'),
-    ],
-)
-def test_a_command_that_no_finger_should_follow_is_bounded(bench, plant, v_x, obeyed, counted):
-    node = plant(command_timeout=10.0)
-    bench.hear(JointState, TRUE_STATE)
-    commands = bench.publisher(TwistStamped, COMMAND)
-    commands.publish(command(0.001))
-    commands.publish(command(v_x))
-    bench.until(lambda: node._counts[counted])
-    now = node.get_clock().now().to_msg()
-    heard = bench.heard[TRUE_STATE]
-    bench.until(lambda: heard and stamp_of(heard[-1]) > (now.sec, now.nanosec))
-    assert bench.values(TRUE_STATE)['v_x_commanded'] == obeyed
-
-
-def test_without_further_commands_the_finger_stops(bench, plant):
-    plant(command_timeout=0.05)
-    bench.hear(JointState, TRUE_STATE)
-    bench.publisher(TwistStamped, COMMAND).publish(command(0.01))
-    bench.until(lambda: any(message.position[5] > 0.0 for message in bench.heard[TRUE_STATE]))
-    bench.until(lambda: bench.values(TRUE_STATE)['v_x'] == 0.0)
-    assert bench.health == (ERROR, 'no command, finger stopped')
-
-
-def test_published_time_grows_by_the_sensors_period(bench, plant):
-    plant(publish_clock=True)
-    bench.hear(Clock, CLOCK)
-    bench.until(lambda: len({message.clock.nanosec for message in bench.heard[CLOCK]}) > 3)
-    times = [message.clock.sec * 10**9 + message.clock.nanosec for message in bench.heard[CLOCK]]
-    assert times == sorted(times)
-    assert all(time % 10_000_000 == 0 for time in times)
-
-
-def test_readings_come_out_of_the_device(bench, plant, tmp_path):
-    plant(theta_initial=0.2)
-    device, stream, readings = Device(str(tmp_path / 'sensor'), 115200), SentenceStream(), []
-    bench.until(lambda: len(readings) > 3, lambda: readings.extend(stream.feed(device.read())))
-    device.close()
-    # A finger that points straight ahead: the edge turned by theta is felt so far from the pole.
-    assert {round(math.pi / 2.0 - reading.elevation, 4) for reading in readings} == {0.2}
-    assert stream.lost == 0
-
-
-def test_a_fault_takes_effect_while_it_runs_and_is_a_warning(bench, plant):
-    node = plant()
-    (answer,) = node.set_parameters([RosParameter('belt_stopped', value=True)])
-    assert answer.successful
-    assert bench.health == (WARN, 'belt stands, waiting for the first command, with belt_stopped')
-    bench.hear(JointState, TRUE_STATE)
-    bench.publisher(TwistStamped, COMMAND).publish(command(0.01))
-    bench.until(lambda: bench.heard[TRUE_STATE] and bench.values(TRUE_STATE)['finger_x'] > 1e-4)
-    assert bench.values(TRUE_STATE)['belt_travel'] == 0.0
-
-
-def test_faults_that_do_not_fit_together_are_refused_while_it_runs(bench, plant):
-    node = plant(workspace_max=0.1)
-    (answer,) = node.set_parameters([RosParameter('workspace_min', value=0.2)])
-    assert not answer.successful
-    assert 'workspace' in answer.reason
-    assert node._rig.faults.workspace.lower == -math.inf
 
 
 @pytest.mark.parametrize(

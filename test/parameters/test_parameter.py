@@ -112,6 +112,7 @@ WITHOUT_UNIT = {
     'mu_c_max',
     'mu_c_min',
     'mu_c_ripple',
+    'mu_s',
     'seed',
     'sensor_dropout',
     'sensor_outlier',

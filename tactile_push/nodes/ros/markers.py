@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What RViz shows in `finger_disk`: the simulated rig, and what is known of the object."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point, Vector3
@@ -16,6 +18,9 @@ from tactile_push.parameters import ActiveSensingParameters
 from tactile_push.pipeline.orientation import quaternion_of_yaw
 from tactile_push.simulation import Rig
 
+if TYPE_CHECKING:
+    from tactile_push.simulation.mujoco_rig import MujocoRig
+
 HEIGHT = 0.02  # of what stands on the belt [m]; picked, as all sizes and colours here
 ABOVE = 0.022  # height of an estimate, so that it is seen beside the true object [m]
 SPACING = 0.002  # of points on curved outlines [m]
@@ -29,7 +34,7 @@ GUESS = ColorRGBA(r=0.10, g=0.60, b=0.30, a=1.0)
 SURE = ColorRGBA(r=0.10, g=0.60, b=0.30, a=0.4)
 
 
-def rig_markers(rig: Rig, stamp: Time) -> MarkerArray:
+def rig_markers(rig: 'Rig | MujocoRig', stamp: Time) -> MarkerArray:
     """Draw finger, object, belt and, in contact, the normal, friction cone and push ray."""
     pose = rig.object_in_finger_disk
     body = _marker(stamp, 'object', Marker.TRIANGLE_LIST, STEEL, (1.0, 1.0, 1.0))

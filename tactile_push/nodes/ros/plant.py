@@ -7,6 +7,7 @@ import time
 from abc import abstractmethod
 from collections import Counter
 from collections.abc import Callable
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped, TwistStamped
@@ -41,6 +42,11 @@ from tactile_push.simulation import Readout, Rig, serve
 from tactile_push.simulation.pace import Pace
 from tactile_push.tactile import Reading
 
+if TYPE_CHECKING:
+    from tactile_push.simulation.mujoco_rig import MujocoRig
+
+P = TypeVar('P', bound=SimPlantParameters)
+
 FRESHEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 MARKER_RATE = 10.0  # [Hz]; fluent enough to the eye
 REPEAT_PERIOD = 0.01  # of time and reading while time stands still [s]; late by no more; picked
@@ -48,15 +54,15 @@ LOOK_PERIOD = 1.0  # at who commands [s]; as often as diagnostics report it
 LONGEST_STEP = 0.1  # a late timer moves the real-time rig no further at once [s]: a control period
 
 
-class PlantNode(Node):
+class PlantNode(Node, Generic[P]):
     """Node: belt, object, finger and sensor of a rig that a subclass makes."""
 
     NAME: str
-    PARAMETERS: type[SimPlantParameters]
+    PARAMETERS: type[P]
 
     @staticmethod
     @abstractmethod
-    def rig_maker(p: SimPlantParameters) -> Callable[[], Rig]:
+    def rig_maker(p: P) -> 'Callable[[], Rig | MujocoRig]':
         """Return what makes the rig and compiles what it needs; ValueError if there is no rig."""
 
     def __init__(self) -> None:
@@ -107,7 +113,7 @@ class PlantNode(Node):
         self._device.close()
         super().destroy_node()
 
-    def _take_parameters(self, settings: SimPlantParameters) -> None:
+    def _take_parameters(self, settings: P) -> None:
         self._settings = settings
         self._rig.faults = faults(settings)
         self._readout.sensor = self._rig.faults.sensor

@@ -1,0 +1,288 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""The rig in MuJoCo: independent physics with a finger of joints and a push above the belt.
+
+This module needs the package mujoco; no other module of the room imports it.
+"""
+
+import math
+
+import mujoco
+import numpy as np
+
+from tactile_push.mechanics import FREE, MODES, SLIP_LEFT, SLIP_RIGHT, STICK, Pose, clearance
+from tactile_push.mechanics.compiled import Array
+from tactile_push.simulation.faults import NO_FAULTS, Faults
+from tactile_push.simulation.mujoco_model import (
+    MOST_FRICTION,
+    SAG,
+    TIME_STEP,
+    MujocoPhysics,
+    model_xml,
+)
+from tactile_push.simulation.rig import Rig, RigConfig, directions
+from tactile_push.simulation.servo import DelayLine, quantised
+from tactile_push.tactile import (
+    NO_CONTACT,
+    FingerPose,
+    OutOfReachError,
+    Reading,
+    reading_of_contact,
+)
+from tactile_push.tactile.hemisphere import normalized_angle
+from tactile_push.tactile.planar_finger import pole_angle
+
+SETTLING = 0.2  # for the feet to take the weight [s]: five times as long as they swing
+RETREAT = 0.01  # of the tip meanwhile [m]
+FIRST_DENT = 1e-6  # with which finger and object touch at the start [m]
+HOLD = 5.0  # rate at which the finger goes back to its line across the belt [1/s]; picked
+REACH = 1e-4  # the finger stays so far from the end of its reach [m], where joints would race
+SLOW = 0.01  # share of the belt's speed that counts as rest; a contact that sticks creeps slower
+
+# Where things stand in MuJoCo's qpos, and the links' rates in its qvel. A free body has 7 and 6.
+BASE, LINKS, WRIST = 7, slice(8, 10), 10
+BASE_RATE, LINK_RATES = 6, slice(7, 9)
+
+
+class MujocoRig:
+    """The rig in motion, as `Rig` is, but by MuJoCo.
+
+    Everything that is told of the object, the contact and the finger is what MuJoCo has.
+
+    Parameters
+    ----------
+    config : RigConfig
+        What the rig is made of and where it starts. Infinite friction is one of 1000.
+    physics : MujocoPhysics
+        What else MuJoCo has to know.
+    faults : Faults, optional
+        How far it is from a perfect one; its sensor is left to whoever reads. They may be replaced
+        at any time.
+    """
+
+    def __init__(
+        self, config: RigConfig, physics: MujocoPhysics, faults: Faults = NO_FAULTS
+    ) -> None:
+        self.config = config
+        self.physics = physics
+        self.faults = faults
+        self._model = mujoco.MjModel.from_xml_string(model_xml(config, physics))
+        self._data = mujoco.MjData(self._model)
+        self._object = self._model.body('object').id
+        self._touch = [self._model.geom(name).id for name in ('tip', 'side')]
+        links = config.finger
+        # The knuckle points across the belt, the pole along it.
+        self._home = links.forward(math.pi - links.mount_angle, -math.pi / 2.0)
+        self._commands = DelayLine()
+        self._wanted = 0.0  # velocity that the servos are asked for now [m/s]
+        self.time = 0.0  #: how long it has been in motion [s]
+        self.v_y = 0.0  #: the belt's speed at the end of the last step [m/s]
+        self.touching = True  #: whether finger and object touch
+        self.theta = config.theta  #: angle of the tangent plane at the last contact [rad]
+        self.normal_force = 0.0  #: force at the contact along its normal [N]
+        self.mode = FREE  #: how the contact moved at the end of the last step, an index of `MODES`
+        self.phi = math.pi / 2.0  #: direction of the finger on the belt [rad]
+        self.at_workspace_limit = False  #: whether the finger could not follow its velocity
+        self._put_down()
+
+    def _put_down(self) -> None:
+        """Let the object settle on its feet, and touch it."""
+        finger, q = self.config.finger, self._data.qpos
+        pose = Rig(self.config).object_pose
+        q[:3] = self._home.x + pose.x, self._home.y + pose.y, -SAG
+        q[3], q[6] = math.cos(pose.angle / 2.0), math.sin(pose.angle / 2.0)
+        q[BASE] = -RETREAT
+        q[LINKS] = finger.inverse(self._home.x, self._home.y)
+        if not self.physics.tip_turns:
+            q[WRIST] = math.pi / 2.0 - pole_angle(finger.mount_angle, q[LINKS])
+        self._simulate(0.0, SETTLING, belt_running=False)
+        q[BASE] = FIRST_DENT / math.cos(self.config.theta)
+        self._data.qvel[:] = 0.0
+        mujoco.mj_forward(self._model, self._data)
+        self.time = 0.0
+        self._look()
+
+    @property
+    def finger_x(self) -> float:
+        """Centre of the finger's disk on the belt, from its start [m]."""
+        return self.finger_pose.x - self._home.x
+
+    @property
+    def finger_y(self) -> float:
+        """The same along the belt, where the finger moves at +v_y [m]."""
+        return float(self._data.qpos[BASE]) + self.finger_pose.y - self._home.y
+
+    @property
+    def v_x(self) -> float:
+        """The finger's velocity across the belt [m/s]."""
+        at, b = self.finger_pose, self.config.finger.distal_length
+        proximal, distal = self._data.qvel[LINK_RATES].tolist()
+        return -at.y * proximal - b * math.sin(at.psi) * distal
+
+    @property
+    def object_pose(self) -> Pose:
+        """Centre of mass and orientation of the object on the belt."""
+        x, y, _ = self._data.xipos[self._object].tolist()
+        turn = self._data.xmat[self._object]
+        return Pose(x - self._home.x, y - self._home.y, math.atan2(turn[3], turn[0]))
+
+    @property
+    def d(self) -> float:
+        """The paper's d of the contact [m]."""
+        place = self.object_in_finger_disk
+        return -place.x * math.cos(self.theta) - place.y * math.sin(self.theta)
+
+    @property
+    def gap(self) -> float:
+        """Distance between finger and object [m]; negative by the tip's dent."""
+        return clearance(*self._around)[1]
+
+    @property
+    def sigma(self) -> float:
+        """Position of the disk along its path around the object [m]."""
+        return float(clearance(*self._around)[0])
+
+    @property
+    def mode_name(self) -> str:
+        """The contact's mode as a word."""
+        return MODES[self.mode]
+
+    @property
+    def joints(self) -> tuple[float, float]:
+        """Angles of the finger's two moving joints [rad]."""
+        proximal, distal = self._data.qpos[LINKS].tolist()
+        return proximal, distal
+
+    @property
+    def finger_pose(self) -> FingerPose:
+        """Pose of the finger tip in `finger_base`."""
+        return self.config.finger.forward(*self.joints)
+
+    @property
+    def object_in_finger_disk(self) -> Pose:
+        """Pose of the object in the frame `finger_disk`."""
+        pose = self.object_pose
+        return Pose(pose.x - self.finger_x, pose.y - self.finger_y, pose.angle)
+
+    @property
+    def contact_directions(self) -> dict[str, tuple[float, float]]:
+        """Unit vectors at the contact: 'normal', 'left' and 'right' (friction cone), 'push'."""
+        alpha = math.atan(self._model.pair_friction[0, 0])
+        return directions(self.theta + math.pi / 2.0, alpha, self.phi)
+
+    def reading(self) -> Reading:
+        """Read the sensor.
+
+        Returns
+        -------
+        Reading
+            Azimuth and elevation [rad], and normal force [N]; NaN without contact or behind the
+            hemisphere.
+        """
+        if not self.touching:
+            return NO_CONTACT
+        psi = self.finger_pose.psi
+        return reading_of_contact(self.theta, psi, self.normal_force) or NO_CONTACT
+
+    def step(self, v_x: float, duration: float, belt_running: bool = True) -> None:
+        """Let the finger and the belt move for a while.
+
+        Parameters
+        ----------
+        v_x : float
+            Velocity of the finger across the belt [m/s], as commanded.
+        duration : float
+            How long [s].
+        belt_running : bool, optional
+            Whether the belt moves.
+        """
+        self.at_workspace_limit = False
+        servo = self.faults.servo
+        for arrived, length in self._commands.arriving(v_x, self.time, duration, servo.delay):
+            self._simulate(quantised(arrived, servo.velocity_quantum), length, belt_running)
+        self._look()
+
+    def _simulate(self, command: float, duration: float, belt_running: bool) -> None:
+        """Let the servos follow one command."""
+        steps = math.ceil(duration / TIME_STEP - 1e-6)
+        if steps <= 0:
+            return
+        self._model.opt.timestep = step = duration / steps
+        lag = self.faults.servo.time_constant
+        behind = math.exp(-step / lag) if lag > 0.0 else 0.0
+        data, belt = self._data, self.faults.belt
+        for _ in range(steps):
+            self._wanted = command + behind * (self._wanted - command)
+            if self.faults.friction.ripple > 0.0:
+                self._make_friction_uneven()
+            data.ctrl[:] = self._joint_velocities(self._within_limits(self._wanted, step))
+            self.v_y = 0.0
+            if belt_running:
+                self.v_y = belt.mean_speed(self.config.belt_speed, self.time, step)
+            data.qvel[BASE_RATE] = self.v_y
+            mujoco.mj_step(self._model, data)
+            self.time += step
+
+    def _within_limits(self, v_x: float, step: float) -> float:
+        """Return the velocity, or 0 where the finger can go no further."""
+        x = self.finger_pose.x
+        inside = self.faults.workspace.time_inside(x, v_x, step) == step
+        try:
+            self.config.finger.inverse(x + math.copysign(REACH, v_x), self._home.y)
+        except OutOfReachError:
+            inside = False
+        if inside or v_x == 0.0:
+            return v_x
+        self.at_workspace_limit = True
+        self._wanted = 0.0
+        return 0.0
+
+    def _joint_velocities(self, v_x: float) -> tuple[float, ...]:
+        """Return what moves the disk's centre across the belt, and holds it along the belt."""
+        at, b = self.finger_pose, self.config.finger.distal_length
+        v_y = HOLD * (self._home.y - at.y)
+        # The centre's lever about the second joint; about the first it is (at.x, at.y).
+        x, y = b * math.cos(at.psi), b * math.sin(at.psi)
+        det = y * at.x - at.y * x
+        links = (v_x * x + v_y * y) / det, -(v_x * at.x + v_y * at.y) / det
+        if self.physics.tip_turns:
+            return links
+        return *links, HOLD * (math.pi / 2.0 - at.psi - float(self._data.qpos[WRIST])) - sum(links)
+
+    def _look(self) -> None:
+        """Take the contact from MuJoCo's list."""
+        data = self._data
+        v_x = self.v_x
+        if self.v_y > 0.0 or abs(v_x) > self._slow:
+            self.phi = math.atan2(self.v_y, v_x)
+        found = np.flatnonzero((data.contact.geom == self._touch).all(axis=1))
+        self.touching = len(found) > 0
+        if not self.touching:
+            self.mode, self.normal_force = FREE, 0.0
+            return
+        contact = data.contact[found[0]]
+        normal, *along = contact.frame.reshape(3, 3)
+        self.theta = normalized_angle(math.atan2(normal[1], normal[0]) - math.pi / 2.0)
+        rows = slice(contact.efc_address, contact.efc_address + 3)
+        self.normal_force = float(data.efc_force[rows][0])
+        _, *rates = data.efc_vel[rows]  # of the object on the finger
+        tangent = math.cos(self.theta), math.sin(self.theta)
+        slip = -sum(rate * (axis[:2] @ tangent) for rate, axis in zip(rates, along, strict=True))
+        self.mode = STICK
+        if abs(slip) > self._slow:
+            self.mode = SLIP_LEFT if slip < 0.0 else SLIP_RIGHT
+
+    @property
+    def _slow(self) -> float:
+        """A velocity that counts as none [m/s]."""
+        return SLOW * self.config.belt_speed
+
+    @property
+    def _around(self) -> tuple[Pose, float, float, Array, float]:
+        """What `clearance` takes."""
+        path, radius = self.config.body.path, self.config.radius
+        return self.object_pose, self.finger_x, self.finger_y, path, radius
+
+    def _make_friction_uneven(self) -> None:
+        mean = min(self.config.mu_c, MOST_FRICTION)
+        self._model.pair_friction[0, :2] = self.faults.friction.mu_c(mean, self.sigma)
