@@ -5,7 +5,7 @@
 from tactile_push.simulation.batch import rollouts
 from tactile_push.simulation.belt import Belt
 from tactile_push.simulation.device_server import serve
-from tactile_push.simulation.experiment import experiment
+from tactile_push.simulation.experiment import control_periods, experiment
 from tactile_push.simulation.faults import Faults
 from tactile_push.simulation.object_files import read_object, read_support
 from tactile_push.simulation.rig import Rig, RigConfig, paper_block, paper_disk
@@ -25,6 +25,7 @@ __all__ = [
     'Servo',
     'UnevenFriction',
     'Workspace',
+    'control_periods',
     'experiment',
     'paper_block',
     'paper_disk',

@@ -3,11 +3,13 @@
 """One run of the rig through sensor, finger and the steps that the nodes run, without nodes."""
 
 import math
+from collections.abc import Iterator
 from itertools import count
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tactile_push.control import PUSHING, WAITING, Limits, PushControl, PushLaw, Steadying
+from tactile_push.control import PUSHING, WAITING, Limits, PushControl, PushLaw, Steadying, Tick
 from tactile_push.interface import JOINT_STATES, TOPICS
 from tactile_push.pipeline import Control, Geometry, Stamp
 from tactile_push.simulation.faults import NO_FAULTS, Faults
@@ -16,6 +18,9 @@ from tactile_push.simulation.rollout import MODE, QUANTITIES, Rollout, check_tim
 from tactile_push.simulation.sensor import Readout
 from tactile_push.tactile import ContactFinder
 from tactile_push.tactile.pole_history import JOINT_STATE_TIMEOUT
+
+if TYPE_CHECKING:
+    from tactile_push.simulation.mujoco_rig import MujocoRig
 
 JOINTS = TOPICS[JOINT_STATES].field_names
 ANGLES = ('azimuth', 'elevation')
@@ -76,21 +81,60 @@ def experiment(
         raise ValueError(
             f'sensor_rate: expected a whole number of readings a control period, got {share}'
         )
-    rig, readout = Rig(config, faults), Readout(faults.sensor, seed)
-    finder = ContactFinder(
-        config.radius,
-        joint_state_timeout=JOINT_STATE_TIMEOUT,
-        mount_angle=config.finger.mount_angle,
-    )
+    rig = Rig(config, faults)
     push = PushControl(law, config.belt_speed, period, limits, steadying)
-    push.activate(0.0)
+    history = np.full((steps + 1, QUANTITIES), np.nan)
+    done, end = 0, 'done'
+    for tick in control_periods(rig, push, readings, seed):
+        if done:
+            history[done - 1, MODE] = rig.mode
+        if tick.state == PUSHING:
+            pose = rig.object_pose
+            history[done] = rig.theta, tick.phi, rig.d, pose.x, pose.y, rig.mode
+            done += 1
+            if done > steps:
+                break
+        elif not _waits(tick, push):
+            end = tick.stop_reason or tick.state
+            break
+    theta, phi, d, x, y, mode = history[:done].T
+    return Rollout(theta, phi, d, x, y, mode.astype(np.int64), end)
+
+
+def control_periods(
+    rig: 'Rig | MujocoRig', push: PushControl, readings: int, seed: int
+) -> Iterator[Tick]:
+    """Run a control on a rig, through sensor and finger, for as long as somebody asks.
+
+    Parameters
+    ----------
+    rig : Rig or MujocoRig
+        The rig. Its belt stands until the control pushes.
+    push : PushControl
+        The control, which this activates.
+    readings, seed : int
+        Readings of the sensor in each control period, and seed of their errors.
+
+    Yields
+    ------
+    Tick
+        What the control used and gave in each control period, before the rig moves.
+    """
+    finger, period = rig.config.finger, push.period
+    readout = Readout(rig.faults.sensor, seed)
+    finder = ContactFinder(
+        rig.config.radius,
+        joint_state_timeout=JOINT_STATE_TIMEOUT,
+        mount_angle=finger.mount_angle,
+    )
 
     def seconds(k: int, i: int) -> float:
         """Return the time of a stamp, which counts control periods and readings in a period."""
         return (k + i / readings) * period
 
+    push.activate(0.0)
     geometry = Geometry(finder, JOINTS, seconds)
-    control = Control(push, config.finger, JOINTS, seconds)
+    control = Control(push, finger, JOINTS, seconds)
 
     def feel(stamp: Stamp) -> None:
         """Read joints and sensor, and pass the contacts found to the controller."""
@@ -105,25 +149,15 @@ def experiment(
                     control.contact(stamp, felt.contact.theta)
 
     feel((0, 0))
-    history = np.full((steps + 1, QUANTITIES), np.nan)
-    done, end = 0, 'done'
     for k in count():
         tick = control.tick((k, 0))
-        waiting = tick.state == WAITING and tick.silence < push.limits.contact_timeout
-        if not (waiting or tick.state == PUSHING):
-            end = tick.stop_reason or tick.state
-            break
-        if not waiting:
-            pose = rig.object_pose
-            history[done] = rig.theta, tick.phi, rig.d, pose.x, pose.y, rig.mode
-            if done == steps:
-                done += 1
-                break
+        yield tick
+        waiting = _waits(tick, push)
         for i in range(readings):
             rig.step(tick.v_x or 0.0, period / readings, belt_running=not waiting)
             feel((k, i + 1))
-        if not waiting:
-            history[done, MODE] = rig.mode
-            done += 1
-    theta, phi, d, x, y, mode = history[:done].T
-    return Rollout(theta, phi, d, x, y, mode.astype(np.int64), end)
+
+
+def _waits(tick: Tick, push: PushControl) -> bool:
+    """Return whether the control waits for the first contact, and has not done so for too long."""
+    return tick.state == WAITING and tick.silence < push.limits.contact_timeout
