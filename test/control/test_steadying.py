@@ -4,11 +4,14 @@
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tactile_push.control import Steadying
+from tactile_push.control import Limits, PushControl, PushLaw, Steadying
+from tactile_push.mechanics import friction_cone, push
+from tactile_push.simulation import paper_block
 
 PERIOD = 0.1
 L, R = 0.02, 0.01
@@ -151,3 +154,48 @@ def test_a_bound_that_is_taken_away_ends_the_trim_at_once():
 def test_a_trim_holds_where_it_moves_the_contact_by_more_than_the_tip_rolls_away(l, turning, holds):
     radius = 0.0135 if turning else R
     assert Steadying(BOUND, l, radius).holds(turning) == holds
+
+
+def pushed(turning, bound, steps=1500):
+    """Return theta, the angle steered to [rad] and x [m] of fig. 8's block under the control.
+
+    The tip turns at a constant rate for each metre across the belt, with no bound on x.
+    """
+    config = paper_block()
+    law = PushLaw(0.05, 5.0, math.radians(-10.0))
+    control = PushControl(law, 0.005, PERIOD, Limits(workspace_min=-9.0, workspace_max=9.0))
+    control.steadying.bound = bound
+    control.activate(0.0)
+    angle, sigma, x, found = config.theta, config.sigma, 0.0, []
+    cone = friction_cone(config.mu_c)
+    for k in range(steps):
+        control.locate_finger(x, k * PERIOD, AHEAD + turning * x)
+        control.feel(angle, k * PERIOD)  # the pushed edge is the first of the outline
+        v_x = control.tick(k * PERIOD).v_x
+        found.append((angle, law.aim, x))
+        angle, sigma, _, _ = push(
+            *(angle, sigma, v_x, 0.005, PERIOD, config.body.path, config.body.c, None),
+            *(*cone, config.radius, turning * v_x),
+        )
+        x += v_x * PERIOD
+    return np.array(found).T
+
+
+@pytest.mark.parametrize('turning', [-12.5, -5.0, 0.0, 12.5])
+def test_the_block_comes_to_rest_across_the_belt_however_the_tip_turns(turning):
+    theta, aim, x = pushed(turning, bound=0.4)
+    assert np.ptp(x[-300:]) < 0.0005
+    assert np.abs(theta - aim)[-300:].max() < math.radians(0.3)
+    assert np.abs(np.diff(aim)).max() <= math.radians(0.1) + 1e-12
+    assert np.abs(aim - math.radians(-10.0)).max() <= 0.4
+
+
+def test_without_steadying_it_runs_away_where_the_tip_turns_clockwise_to_the_right():
+    _, aim, unstable = pushed(-12.5, bound=0.0)
+    _, _, straight = pushed(0.0, bound=0.0)
+    _, _, stable = pushed(12.5, bound=0.0)
+    assert np.ptp(aim) == 0.0
+    way = [np.abs(np.diff(x[::300])) for x in (unstable, straight, stable)]
+    assert way[0][-1] > 2.0 * way[0][-2] > 4.0 * way[0][-3]
+    assert way[1][-1] == pytest.approx(way[1][-2], rel=0.01)
+    assert way[2][-1] < 0.5 * way[2][-2]
