@@ -72,7 +72,7 @@ def test_exact_support_of_400_points(benchmark, mu_c):
     block = paper_block()
     outline = block.slider.outline
     exact = Slider.on(outline, Support.uniform(outline, 400), exact=True)
-    config = RigConfig(exact, mu_c, block.theta, block.d)
+    config = RigConfig(exact, mu_c, block.theta, block.d, tip_turns=False)
     law = PushLaw(KP, KD, THETA_D)
     rollout(config, law, 1)
     run = benchmark(rollout, config, law, 600)

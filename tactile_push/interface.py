@@ -97,6 +97,13 @@ PAUSE, STEP = '~/pause', '~/step'
 PARAMETERS_NOTE = 'tactile_push.parameters'  # JSON: full node name without the slash to values
 VERSION_NOTE = 'tactile_push.version'
 
+WRIST_JOINT = 'wrist_joint'  # in `joint_states` of a finger whose wrist holds the tip straight
+
+# Points of the finger tip of which one follows the commanded velocity across the belt.
+POINTS = ('centre', 'pole', 'contact')
+# What active sensing makes of readings while the direction of the finger tip is not known.
+SILENT, WIDEN, STRAIGHT = WITHOUT_PSI = ('silent', 'widen', 'straight')
+
 JOINT_STATE_TYPE = 'sensor_msgs/msg/JointState'
 POSE_TYPE = 'geometry_msgs/msg/PoseStamped'
 UNCERTAIN_POSE_TYPE = 'geometry_msgs/msg/PoseWithCovarianceStamped'
@@ -155,7 +162,8 @@ TOPICS = {
         ),
         Topic(JOINT_STATES, JOINT_STATE_TYPE, ('the finger', *PLANTS),
             (CONTACT_GEOMETRY, PUSH_CONTROLLER),
-            'angles of the moving joints of the finger; the parameters `joint_names` name them',
+            'angles of the moving joints of the finger; the parameters `joint_names` name them; a '
+            'finger whose wrist holds the tip straight adds `wrist_joint`',
             (
                 Field('proximal_joint', 'rad', 'angle of the first moving joint'),
                 Field('distal_joint', 'rad', 'angle of the second moving joint'),
@@ -242,6 +250,7 @@ TOPICS = {
                 Field('v_x', 'm/s', 'velocity of the finger'),
                 Field('v_x_commanded', 'm/s', 'velocity that it was commanded'),
                 Field('finger_x', 'm', 'position of the finger across the belt'),
+                Field('psi', 'rad', "direction of the finger tip's pole"),
                 Field('belt_speed', 'm/s', 'speed of the belt'),
                 Field('belt_travel', 'm', 'how far the belt has moved'),
             ),

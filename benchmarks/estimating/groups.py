@@ -171,7 +171,8 @@ def experiment(group: Group, rng: np.random.Generator) -> Run:
         theta, d = group.start
     radius = RADIUS * (1.0 + error_of(group.r_error, group.shares, rng))
     rig = Rig(
-        RigConfig(slider, group.mu_c, theta, d, radius=radius), Faults(servo=Servo(group.lag))
+        RigConfig(slider, group.mu_c, theta, d, radius=radius, tip_turns=False),
+        Faults(servo=Servo(group.lag)),
     )
     law = PushLaw(0.05, 5.0, math.radians(-10.0))
     rows, x, command = [], 0.0, 0.0

@@ -133,7 +133,8 @@ def _run(options: argparse.Namespace) -> 'tuple[Rollout, RigConfig]':
     d = D_INITIAL if options.object == BLOCK else None
     if hasattr(options, 'd0_mm'):
         d = options.d0_mm / 1000.0
-    config = RigConfig(slider, options.mu_c, math.radians(options.theta0_deg), d)
+    theta = math.radians(options.theta0_deg)
+    config = RigConfig(slider, options.mu_c, theta, d, tip_turns=False)  # as in the equations
     phi = math.radians(options.phi0_deg)
     law = PushLaw(options.kp, options.kd, math.radians(options.theta_desired_deg))
     if not options.open_loop and not law.phi_min <= phi <= law.phi_max:

@@ -53,8 +53,8 @@ def tick_of(values: Mapping[str, float]) -> Tick:
     Parameters
     ----------
     values : mapping of str to float
-        The numbers by name. `elapsed`, `finger_age`, `psi` and `trim` may be
-        missing.
+        The numbers by name. `elapsed`, `finger_age`, `psi` and `trim` may be missing, as in older
+        recordings. Without `psi` the tip is taken to point straight ahead.
 
     Returns
     -------
@@ -81,7 +81,7 @@ def tick_of(values: Mapping[str, float]) -> Tick:
             ticks_lost=int(values['ticks_lost']),
             elapsed=values.get('elapsed', math.nan),
             finger_age=values.get('finger_age', math.nan),
-            psi=values.get('psi', math.nan),
+            psi=values.get('psi', math.pi / 2.0),
             trim=values.get('trim', 0.0),
         )
     except (KeyError, IndexError, ValueError, OverflowError) as error:

@@ -3,15 +3,21 @@
 """From the ticks of the controller to what is known of the object."""
 
 import math
+from dataclasses import replace
 
+from tactile_push.estimation.contradictions import BLIND
 from tactile_push.estimation.finger_motion import FingerMotion
 from tactile_push.estimation.object_estimator import Estimator, ObjectEstimate
+from tactile_push.interface import SILENT, STRAIGHT, WIDEN
+from tactile_push.mechanics import CENTRE, added_way
+from tactile_push.paper import FINGER_RADIUS
 
 # Reasons to forget everything.
 CONTACT_LOST = 'contact lost'
 MOTION_UNKNOWN = 'the finger moved unknown to the controller'
 TICKS_MISSING = 'ticks missing'
 TIME_WENT_BACK = 'time went back'
+TIP_UNKNOWN = 'direction of the finger tip unknown'
 
 SAME_STAMP = 1e-6  # in which two stamps are the same [s]
 FASTEST = 1.0  # a faster command counts as an unknown motion [m/s]
@@ -30,6 +36,12 @@ class ActiveSensing:
     A reading is about the moment of its stamp. If that lies after the tick, the tick's command
     moves the finger up to there, and a command that comes in between changes the next push.
 
+    The finger tip turns while it moves, and its surface passes the contact. A tick tells the tip's
+    direction at the moment of the reading, too. A reading without it is left out, and the next push
+    is a longer one. After `timeout` it depends on `without_psi`: `SILENT` says nothing before the
+    direction is told again, `WIDEN` takes each reading for the first one, and `STRAIGHT` takes the
+    tip for one that does not turn.
+
     It has no clock: the same ticks in the same order give the same estimates.
 
     Parameters
@@ -43,6 +55,12 @@ class ActiveSensing:
     timeout : float
         Without a reading or a tick for longer the contact may have been lost meanwhile [s]. A
         reading that is stamped further ahead is none.
+    point : int, optional
+        Which point of the tip follows the commands: `CENTRE`, `POLE` or `CONTACT`.
+    radius : float, optional
+        Effective radius of the tip [m].
+    without_psi : str, optional
+        One of `interface.WITHOUT_PSI`.
 
     Attributes
     ----------
@@ -55,26 +73,45 @@ class ActiveSensing:
     age : float
         Age of the last reading at the last tick [s], negative if it is stamped ahead; NaN without
         one.
+    timeout : float
+        As given.
+    blind : bool
+        Whether the last tick had a new reading, but not the direction of the finger tip.
     """
 
     def __init__(
-        self, estimator: Estimator, motion: FingerMotion, belt_speed: float, timeout: float
+        self,
+        estimator: Estimator,
+        motion: FingerMotion,
+        belt_speed: float,
+        timeout: float,
+        *,
+        point: int = CENTRE,
+        radius: float = FINGER_RADIUS,
+        without_psi: str = SILENT,
     ) -> None:
         self._estimator = estimator
         self._motion = motion
         self._belt_speed = belt_speed
-        self._timeout = timeout
+        self.timeout = timeout
+        self._point = point
+        self._radius = radius
+        self._without_psi = without_psi
         self._ticked = -math.inf
         self._read = math.nan  # when the last reading was taken [s]
         self._newest = math.nan  # the same of the last tick's, taken or not [s]
         self._seen = math.nan  # the first tick that had it [s]
         self._v_x = math.nan  # from the last tick on
+        self._theta = self._psi = math.nan  # at the last reading [rad]
         self.readings = 0
         self.took = False
         self.forgot = ''
         self.age = math.nan
+        self.blind = False
 
-    def tick(self, stamp: float, theta: float, silence: float, v_x: float) -> ObjectEstimate:
+    def tick(
+        self, stamp: float, theta: float, silence: float, v_x: float, psi: float = math.pi / 2.0
+    ) -> ObjectEstimate:
         """Take a tick.
 
         Parameters
@@ -88,6 +125,9 @@ class ActiveSensing:
         v_x : float
             Velocity of the finger that was commanded from then on [m/s]; NaN if somebody else may
             move it.
+        psi : float, optional
+            Direction of the finger tip at the moment of the reading [rad]; NaN if it is not known.
+            By default it does not turn.
 
         Returns
         -------
@@ -98,7 +138,13 @@ class ActiveSensing:
         if not abs(read - self._newest) <= SAME_STAMP:
             self._newest, self._seen = read, stamp
         touches = self._touches(stamp, theta, silence)
+        if self._without_psi == STRAIGHT and math.isnan(psi):
+            psi = math.pi / 2.0
+        is_new = not read <= self._read + SAME_STAMP
+        self.blind = touches and is_new and math.isnan(psi - self._psi if self.readings else psi)
         self.forgot = self._reason_to_forget(stamp, touches)
+        if not self.forgot and self.blind and self.readings and read - self._read > self.timeout:
+            self.forgot = TIP_UNKNOWN
         if self.forgot:
             self._estimator.reset()
             self.readings = 0
@@ -106,29 +152,38 @@ class ActiveSensing:
         before = 0.0 if math.isnan(self._v_x) else self._v_x
         self._ticked, self._v_x = stamp, v_x if abs(v_x) <= FASTEST else math.nan
         self.age = silence if touches else math.nan
-        is_new = not read <= self._read + SAME_STAMP
-        self.took = touches and is_new and not math.isnan(self._v_x)
+        is_new |= not self.readings
+        left_out = self.blind and (self.readings > 0 or self._without_psi != WIDEN)
+        self.took = touches and is_new and not left_out and not math.isnan(self._v_x)
         if self.took and not self.readings:
             self._motion.reset(read, before)
         if self.took or self.readings:
             self._motion.command(stamp, self._v_x)
-        return self._take(theta, read) if self.took else self._estimator.estimate()
+        if self.took:
+            return self._take(theta, psi, read)
+        estimate = self._estimator.estimate()
+        silent = self.blind and not self.readings
+        return replace(estimate, contradiction=BLIND) if silent else estimate
 
-    def _take(self, theta: float, read: float) -> ObjectEstimate:
+    def _take(self, theta: float, psi: float, read: float) -> ObjectEstimate:
         """Take a reading and the push that led to it; the first one has none."""
-        way = self._motion.way(read)
-        duration = read - self._read if self.readings else 0.0
+        way, duration, turned = self._motion.way(read), 0.0, 0.0
+        if self.readings:
+            duration = read - self._read
+            turned = math.remainder(psi - self._psi, 2.0 * math.pi)
+            mean = (self._theta + theta) / 2.0
+            way += added_way(self._point, psi - turned, psi, mean, self._radius)
         self.readings += 1
-        self._read = read
-        v_x = way / duration if duration else 0.0
-        return self._estimator.push(theta, v_x, self._belt_speed, duration)
+        self._theta, self._psi, self._read = theta, psi, read
+        v_x, spin = (way / duration, turned / duration) if duration else (0.0, 0.0)
+        return self._estimator.push(theta, v_x, self._belt_speed, duration, spin)
 
     def _touches(self, stamp: float, theta: float, silence: float) -> bool:
         """Return whether a pushed edge was felt a moment ago.
 
         A clock that is ahead must not make a reading last longer than a right one would.
         """
-        recent = abs(silence) <= self._timeout and stamp - self._seen <= self._timeout
+        recent = abs(silence) <= self.timeout and stamp - self._seen <= self.timeout
         return abs(theta) < math.pi / 2.0 and recent
 
     def _reason_to_forget(self, stamp: float, touches: bool) -> str:
@@ -136,7 +191,7 @@ class ActiveSensing:
             return ''
         if stamp < self._ticked:
             return TIME_WENT_BACK
-        if stamp - self._ticked > self._timeout:
+        if stamp - self._ticked > self.timeout:
             return TICKS_MISSING
         if not touches:
             return CONTACT_LOST

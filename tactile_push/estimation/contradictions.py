@@ -44,7 +44,8 @@ OTHERWISE = 'the edge turns otherwise than that of any object of this outline: i
 NOISY = 'the readings scatter far more than the stated noise'
 IMPOSSIBLE = 'no object within the bounds on l, r, c, mu_c and noise turns like this'
 MOVED = 'the contact is not where it has rolled to along the edge: does the finger tip turn?'
-CONTRADICTIONS = ('', ANYWHERE, JUMPED, STILL, LEFT, OTHERWISE, NOISY, IMPOSSIBLE, MOVED)
+BLIND = 'the direction of the finger tip is unknown: are there joint states of all its joints?'
+CONTRADICTIONS = ('', ANYWHERE, JUMPED, STILL, LEFT, OTHERWISE, NOISY, IMPOSSIBLE, MOVED, BLIND)
 
 
 class _Line:

@@ -3,6 +3,7 @@
 """Mechanics of a pushed object: Sections I and II of the paper."""
 
 from tactile_push.mechanics.body import Body, Finger, Pose
+from tactile_push.mechanics.commanded_point import CENTRE, CONTACT, POLE, added_way
 from tactile_push.mechanics.contact import clearance, contact, tangent_angle
 from tactile_push.mechanics.exact_motion import exact_pushed_twist
 from tactile_push.mechanics.friction import (
@@ -36,8 +37,11 @@ from tactile_push.mechanics.slider import Slider
 from tactile_push.mechanics.support import Support
 
 __all__ = [
+    'CENTRE',
+    'CONTACT',
     'FREE',
     'MODES',
+    'POLE',
     'SLIP_LEFT',
     'SLIP_RIGHT',
     'STICK',
@@ -50,6 +54,7 @@ __all__ = [
     'Pose',
     'Slider',
     'Support',
+    'added_way',
     'check_friction',
     'clearance',
     'contact',

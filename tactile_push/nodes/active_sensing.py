@@ -11,6 +11,7 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
+from tactile_push.estimation.contradictions import BLIND
 from tactile_push.interface import CONTROLLER_STATE, OBJECT_POSE, SENSING_MARKERS, SENSING_STATE
 from tactile_push.nodes.ros.compiling import compiling
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
@@ -87,10 +88,12 @@ class ActiveSensingNode(Node):
         values = {name: f'{value:.6g}' for name, value in sensed.values.items()}
         if time.monotonic() - self._ticked_at > PATIENCE:
             return Health(WARN, 'no control periods', values)
-        if not sensed.values['readings']:
-            return Health(WARN, 'nothing known: no contact', values)
         if sensed.estimate.contradiction:
             return Health(ERROR, f'nothing known: {sensed.estimate.contradiction}', values)
+        if not sensed.values['readings']:
+            return Health(WARN, 'nothing known: no contact', values)
+        if sensed.blind:
+            return Health(WARN, f'hardly estimating: {BLIND}', values)
         return Health(OK, 'estimating', values)
 
 

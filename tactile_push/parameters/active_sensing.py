@@ -7,6 +7,7 @@ import typing
 from dataclasses import dataclass
 
 from tactile_push.control import Limits
+from tactile_push.interface import POINTS, SILENT, WITHOUT_PSI
 from tactile_push.paper import BLOCK_EDGE, BLOCK_L
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
@@ -47,6 +48,11 @@ class ActiveSensingParameters(NodeParameters):
     noise: float = parameter(0.0035, 'rad',
         'standard deviation of the readings of theta', 1e-5, 0.5, read_only=True)
     finger_radius: float = shared.finger_radius
+    commanded_point: str = shared.commanded_point
+    without_psi: str = parameter(SILENT, '',
+        'while the controller does not know the direction of the finger tip: silent says nothing, '
+        'widen takes each reading for the first one, straight takes the tip for one that does not '
+        'turn', choices=WITHOUT_PSI, read_only=True)
     finger_lag: float = parameter(0.0, 's',
         'time constant with which the finger follows its commands', 0.0, 10.0, read_only=True)
     finger_delay: float = parameter(0.0, 's',
@@ -129,4 +135,9 @@ def make_sensing(p: ActiveSensingParameters) -> 'ActiveSensing':
             radius=p.finger_radius,
         )
     motion = FingerMotion(p.finger_lag, p.finger_delay)
-    return ActiveSensing(estimator, motion, p.belt_speed, p.contact_timeout)
+    return ActiveSensing(
+        *(estimator, motion, p.belt_speed, p.contact_timeout),
+        point=POINTS.index(p.commanded_point),
+        radius=p.finger_radius,
+        without_psi=p.without_psi,
+    )

@@ -59,7 +59,8 @@ def mujoco_config(p: MujocoPlantParameters) -> tuple['RigConfig', 'MujocoPhysics
             spread = Support.rim if p.support == RIM else Support.uniform
             support = spread(outline, FEET)
         return config, MujocoPhysics(
-            support, p.mu_s, p.mass, p.object_height, p.push_height, inertia
+            *(support, p.mu_s, p.mass, p.object_height, p.push_height, inertia),
+            tip_turns=p.tip_turns,
         )
     except ValueError as error:
         named = re.sub('^outline:', 'support:', str(error))

@@ -53,7 +53,8 @@ class PushControllerParameters(NodeParameters):
     joint_state_timeout: float = parameter(LIMITS.joint_state_timeout, 's',
         'the finger stops after this long without joint_states, if there ever were any', 0.01, 10.0)
     joint_names: list[str] = parameter(shared.JOINT_NAMES, '',
-        'the two moving joints in joint_states', read_only=True)
+        'the two moving joints in joint_states, and a wrist that holds the tip straight if there '
+        'is one', read_only=True)
     proximal_length: float = shared.proximal_length
     distal_length: float = shared.distal_length
     mount_angle: float = shared.mount_angle
@@ -67,12 +68,12 @@ def make_control(p: PushControllerParameters) -> PushControl:
     Raises
     ------
     ValueError
-        If the workspace is empty, the finger has not two joints, or theta_desired could be trimmed
-        too far.
+        If the workspace is empty, the finger has neither two nor three joints, or theta_desired
+        could be trimmed too far.
     """
     check_trimmed(p)
-    if not len(p.joint_names) == len(set(p.joint_names)) == 2:
-        raise ValueError(f'joint_names: expected two different names, got {p.joint_names}')
+    if not len(p.joint_names) == len(set(p.joint_names)) in (2, 3):
+        raise ValueError(f'joint_names: expected two or three different names, got {p.joint_names}')
     law = PushLaw(p.kp, p.kd, p.theta_desired, p.phi_min, p.phi_max)
     limits = Limits(workspace_min=p.workspace_min, workspace_max=p.workspace_max)
     steadying = Steadying(p.steadying_max, p.edge_distance, p.finger_radius)

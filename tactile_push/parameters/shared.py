@@ -3,7 +3,7 @@
 """Fields that several nodes declare under the same name and with the same words."""
 
 from tactile_push import paper
-from tactile_push.interface import JOINT_STATES, TOPICS
+from tactile_push.interface import JOINT_STATES, POINTS, TOPICS
 from tactile_push.parameters.parameter import parameter
 from tactile_push.tactile.planar_finger import USUAL_FINGER as FINGER
 
@@ -20,5 +20,8 @@ distal_length = parameter(FINGER.distal_length, 'm',
     'distance from the last joint to the centre of the disk', 1e-3, 1.0, read_only=True)
 mount_angle = parameter(FINGER.mount_angle, 'rad',
     'angle of the finger at joint angles zero', -6.3, 6.3, read_only=True)
+commanded_point = parameter(POINTS[0], '',
+    "point of the tip that follows the commanded velocity: the disk's centre, the pole as in the "
+    'paper, or the contact', choices=POINTS, read_only=True)
 autostart = parameter(True, '', 'configure and activate without a manager', read_only=True)
 # fmt: on

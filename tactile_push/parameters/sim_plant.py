@@ -47,6 +47,10 @@ class SimPlantParameters(NodeParameters):
     proximal_length: float = shared.proximal_length
     distal_length: float = shared.distal_length
     mount_angle: float = shared.mount_angle
+    tip_turns: bool = parameter(True, '',
+        'the finger tip turns with the last link; otherwise wrist_joint, a third joint, holds it '
+        'straight', read_only=True)
+    commanded_point: str = shared.commanded_point
     sensor_rate: float = parameter(50.0, 'Hz', 'readings a second', 1.0, 1000.0, read_only=True)
     command_timeout: float = parameter(0.5, 's',
         'the finger stops after this long without a command', 0.01, 10.0, read_only=True)
@@ -121,7 +125,10 @@ def rig_config(p: SimPlantParameters) -> 'RigConfig':
     slider = Slider(outline, p.c or Support.uniform(outline).c)
     finger = PlanarFinger(p.proximal_length, p.distal_length, p.mount_angle)
     try:
-        return RigConfig(slider, p.mu_c, p.theta_initial, d, p.belt_speed, p.finger_radius, finger)
+        return RigConfig(
+            *(slider, p.mu_c, p.theta_initial, d, p.belt_speed, p.finger_radius, finger),
+            *(p.tip_turns, p.commanded_point),
+        )
     except ValueError as error:
         raise ValueError(re.sub('^d:', 'parameter d_initial:', str(error))) from None
 

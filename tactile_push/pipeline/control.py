@@ -12,6 +12,7 @@ from tactile_push.pipeline.named import by_name
 from tactile_push.pipeline.orientation import yaw_of_quaternion
 from tactile_push.pipeline.stamps import Seconds, Stamp
 from tactile_push.tactile import PlanarFinger
+from tactile_push.tactile.planar_finger import pole_angle
 
 
 class Control:
@@ -22,7 +23,8 @@ class Control:
     push : PushControl
         Law, limits and stops.
     finger, joint_names : PlanarFinger, sequence of str
-        The finger's links, which say where the joints bring the disk, and its two moving joints.
+        The finger's links, which say where the joints bring the disk, and its moving joints, those
+        of the links first. A third one is a wrist that holds the tip straight.
     seconds : callable
         Returns the time [s] of a stamp.
 
@@ -86,13 +88,14 @@ class Control:
         angles = by_name(names, positions)
         try:
             joints = [angles[name] for name in self._joint_names]
-            pose, turning = self._finger.forward(*joints), self._finger.turning(*joints)
+            x, turning = self._finger.forward(*joints[:2]).x, self._finger.turning(*joints[:2])
         except KeyError:
             return True  # joint states of another mechanism
         except ValueError:
             return False
-        self.push.locate_finger(pose.x, self._seconds(*stamp), pose.psi)
-        self.turning = turning
+        psi = pole_angle(self._finger.mount_angle, joints)
+        self.push.locate_finger(x, self._seconds(*stamp), psi)
+        self.turning = turning if len(joints) == 2 else 0.0
         return True
 
     def tick(self, stamp: Stamp, elapsed: float = math.nan) -> Tick:

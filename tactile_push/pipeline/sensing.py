@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """From control periods to what is known of the object: what `active_sensing` does."""
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
@@ -11,6 +12,8 @@ from tactile_push.interface import OBJECT_POSE, SENSING_STATE
 from tactile_push.pipeline.messages import Output, joint_state_fields, object_pose_fields
 from tactile_push.pipeline.named import by_name
 from tactile_push.pipeline.stamps import Seconds, Stamp, stamp_before
+from tactile_push.tactile import ReadingRejectedError
+from tactile_push.tactile.pole_history import PoleHistory
 
 
 class Sensed(NamedTuple):
@@ -22,6 +25,7 @@ class Sensed(NamedTuple):
     took: bool  #: whether there was a reading
     forgot: str  #: why everything was forgotten; empty if it was not
     has_pose: bool  #: whether there is a new pose to publish
+    blind: bool  #: whether the direction of the finger tip was not known
 
     @property
     def known(self) -> bool:
@@ -55,6 +59,7 @@ class Sensing:
     def __init__(self, sensing: ActiveSensing, seconds: Seconds) -> None:
         self.sensing = sensing
         self._seconds = seconds
+        self._ticked = -math.inf
 
     def state(self, stamp: Stamp, names: Sequence[str], positions: Sequence[float]) -> Sensed:
         """Take a message of `push_controller/state`; ValueError if it is no control period.
@@ -86,7 +91,8 @@ class Sensing:
         """
         sensing = self.sensing
         now = self._seconds(*stamp)
-        estimate = sensing.tick(now, tick.theta, tick.silence, tick.known_velocity)
+        psi = self._psi(now, tick)
+        estimate = sensing.tick(now, tick.theta, tick.silence, tick.known_velocity, psi)
         return Sensed(
             stamp,
             sensing_values(estimate, sensing),
@@ -94,4 +100,16 @@ class Sensing:
             sensing.took,
             sensing.forgot,
             tells_pose(estimate, sensing),
+            sensing.blind,
         )
+
+    def _psi(self, now: float, tick: Tick) -> float:
+        """Return the direction of the finger tip at the tick's reading [rad]; NaN if unknown."""
+        if not now >= self._ticked > -math.inf:  # the clock was set, or this is the first tick
+            self._pole = PoleHistory(self.sensing.timeout)
+        self._ticked = now
+        self._pole.record(now - (0.0 if math.isnan(tick.finger_age) else tick.finger_age), tick.psi)
+        try:
+            return self._pole.at(now - tick.silence)
+        except ReadingRejectedError:
+            return math.nan

@@ -107,15 +107,15 @@ class ReplayedController:
             if not complete and log_time < recorded.log_time + PATIENCE:
                 return
             self._waiting.popleft()
-            self._last = self._trimmed(self._make(recorded), recorded.tick.trim)
+            made = self._make(recorded)
+            self._last = made and self._as_recorded(made, recorded.tick)
             self._before = recorded
             yield Replayed(recorded.stamp, recorded.log_time, self._last, recorded.tick)
 
-    def _trimmed(self, tick: Tick | None, trim: float) -> Tick | None:
-        """Return a tick with the trim that the recorded theta_d has in it."""
-        if tick is None or 'theta_desired' in self._overridden:
-            return tick
-        return replace(tick, trim=trim)
+    def _as_recorded(self, tick: Tick, recorded: Tick) -> Tick:
+        """Return a tick with the recorded psi, and the trim that the recorded theta_d has in it."""
+        tick = replace(tick, psi=recorded.psi)  # where it was not recorded, nothing follows from it
+        return tick if 'theta_desired' in self._overridden else replace(tick, trim=recorded.trim)
 
     def _make(self, recorded: _Recorded) -> Tick | None:
         """Make one tick; None as long as the node's memory is not known."""

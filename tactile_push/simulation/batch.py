@@ -30,6 +30,7 @@ from tactile_push.simulation.rollout import (
     run,
 )
 from tactile_push.simulation.servo import Servo
+from tactile_push.simulation.tip import Tip
 
 CHUNKS_PER_WORKER = 8  # so that cores whose runs end early get more; picked
 
@@ -97,6 +98,7 @@ def _run_many(
     bodies: Bodies,
     periods: Periods,
     r: float,
+    tip: Tip | None,
     band: float,
     histories: Array,
     ends: npt.NDArray[np.int64],
@@ -118,6 +120,7 @@ def _run_many(
             Body(path, bodies.c[j], support),
             Finger(cone[0], cone[1], r),
             _servo(runs.servos, i),
+            tip,
             band,
             histories[i],
         )
@@ -140,6 +143,7 @@ def rollouts(
     belt_speed: float = paper.BELT_SPEED,
     radius: float = paper.FINGER_RADIUS,
     servo: Servo | Sequence[Servo] | None = None,
+    tip: Tip | None = None,
     band: float = paper.TOLERANCE,
     history: bool = False,
 ) -> Rollouts:
@@ -174,6 +178,9 @@ def rollouts(
         [m].
     servo : Servo or sequence of Servo, length 1 or B, optional
         How the finger follows its command, at rest in the beginning; perfectly by default.
+    tip : Tip, optional
+        How the finger's disk turns as it moves, see `RigConfig.tip`; it keeps its orientation by
+        default, as in the paper's equations.
     band : float, optional
         How near theta must stay to its desired value to have settled [rad].
     history : bool, optional
@@ -271,7 +278,7 @@ def rollouts(
     periods = Periods(steps, period, belt_speed)
 
     def run_chunk(borders: tuple[int, int]) -> None:
-        _run_many(*borders, runs, bodies, periods, radius, band, histories, ends, stop)
+        _run_many(*borders, runs, bodies, periods, radius, tip, band, histories, ends, stop)
 
     stop = np.zeros(1, dtype=np.int64)  # what the user's interrupt sets
     workers = (

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tactile_push.control import PUSHING, WAITING, Limits, PushControl, PushLaw, Steadying, Tick
-from tactile_push.interface import JOINT_STATES, TOPICS
+from tactile_push.interface import JOINT_STATES, TOPICS, WRIST_JOINT
 from tactile_push.pipeline import Control, Geometry, Stamp
 from tactile_push.simulation.faults import NO_FAULTS, Faults
 from tactile_push.simulation.rig import Rig, RigConfig
@@ -22,7 +22,7 @@ from tactile_push.tactile.pole_history import JOINT_STATE_TIMEOUT
 if TYPE_CHECKING:
     from tactile_push.simulation.mujoco_rig import MujocoRig
 
-JOINTS = TOPICS[JOINT_STATES].field_names
+JOINTS = (*TOPICS[JOINT_STATES].field_names, WRIST_JOINT)
 ANGLES = ('azimuth', 'elevation')
 
 
@@ -133,14 +133,15 @@ def control_periods(
         return (k + i / readings) * period
 
     push.activate(0.0)
-    geometry = Geometry(finder, JOINTS, seconds)
-    control = Control(push, finger, JOINTS, seconds)
+    names = JOINTS[: len(rig.joints)]
+    geometry = Geometry(finder, names, seconds)
+    control = Control(push, finger, names, seconds)
 
     def feel(stamp: Stamp) -> None:
         """Read joints and sensor, and pass the contacts found to the controller."""
         joints = rig.joints
-        geometry.joint_states(stamp, JOINTS, joints)
-        control.joint_states(stamp, JOINTS, joints)
+        geometry.joint_states(stamp, names, joints)
+        control.joint_states(stamp, names, joints)
         for sample in readout.read(rig.reading(), seconds(*stamp)):
             if sample.reading is not None:
                 angles = sample.reading.azimuth, sample.reading.elevation

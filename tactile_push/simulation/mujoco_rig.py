@@ -148,15 +148,20 @@ class MujocoRig:
         return MODES[self.mode]
 
     @property
-    def joints(self) -> tuple[float, float]:
-        """Angles of the finger's two moving joints [rad]."""
-        proximal, distal = self._data.qpos[LINKS].tolist()
-        return proximal, distal
+    def joints(self) -> tuple[float, ...]:
+        """Angles of the finger's two moving joints and, if it has one, of the wrist [rad]."""
+        links = self._data.qpos[LINKS].tolist()
+        return *links, *([] if self.physics.tip_turns else [float(self._data.qpos[WRIST])])
 
     @property
     def finger_pose(self) -> FingerPose:
-        """Pose of the finger tip in `finger_base`."""
-        return self.config.finger.forward(*self.joints)
+        """Pose of the last link in `finger_base`."""
+        return self.config.finger.forward(*self.joints[:2])
+
+    @property
+    def psi(self) -> float:
+        """Angle of the finger tip's pole in `finger_base` [rad]."""
+        return pole_angle(self.config.finger.mount_angle, self.joints)
 
     @property
     def object_in_finger_disk(self) -> Pose:
@@ -181,8 +186,7 @@ class MujocoRig:
         """
         if not self.touching:
             return NO_CONTACT
-        psi = self.finger_pose.psi
-        return reading_of_contact(self.theta, psi, self.normal_force) or NO_CONTACT
+        return reading_of_contact(self.theta, self.psi, self.normal_force) or NO_CONTACT
 
     def step(self, v_x: float, duration: float, belt_running: bool = True) -> None:
         """Let the finger and the belt move for a while.
@@ -238,12 +242,17 @@ class MujocoRig:
         return 0.0
 
     def _joint_velocities(self, v_x: float) -> tuple[float, ...]:
-        """Return what moves the disk's centre across the belt, and holds it along the belt."""
+        """Return what moves the commanded point across the belt, and holds the disk along it."""
         at, b = self.finger_pose, self.config.finger.distal_length
         v_y = HOLD * (self._home.y - at.y)
         # The centre's lever about the second joint; about the first it is (at.x, at.y).
         x, y = b * math.cos(at.psi), b * math.sin(at.psi)
         det = y * at.x - at.y * x
+        if self.physics.tip_turns:
+            # A point r (cos a, sin a) from the centre goes by r psi' sin(a) less across the belt.
+            sines = {'centre': 0.0, 'pole': math.sin(at.psi), 'contact': math.cos(self.theta)}
+            lever = self.config.radius * sines[self.config.commanded_point]
+            v_x = (v_x + lever * v_y * (y - at.y) / det) / (1.0 - lever * (x - at.x) / det)
         links = (v_x * x + v_y * y) / det, -(v_x * at.x + v_y * at.y) / det
         if self.physics.tip_turns:
             return links

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from tactile_push import paper
+from tactile_push.interface import POINTS
 from tactile_push.mechanics import (
+    CENTRE,
     FREE,
     MODES,
     Body,
@@ -25,15 +27,17 @@ from tactile_push.mechanics import (
 from tactile_push.mechanics.contact import piece_at, reach
 from tactile_push.simulation.faults import NO_FAULTS, Faults
 from tactile_push.simulation.servo import DelayLine, lagged, quantised
+from tactile_push.simulation.tip import EVEN_TURN, Tip, move_tip
 from tactile_push.tactile import (
     NO_CONTACT,
     FingerPose,
-    OutOfReachError,
     PlanarFinger,
     Reading,
     reading_of_contact,
 )
-from tactile_push.tactile.planar_finger import USUAL_FINGER
+from tactile_push.tactile.planar_finger import USUAL_FINGER, link_angles, pole_angle
+
+MOST_TURNS = 100  # parts of one step in each of which the tip turns evenly; picked
 
 
 @dataclass(frozen=True)
@@ -55,6 +59,10 @@ class RigConfig:
     belt_speed: float = paper.BELT_SPEED  #: speed of the belt, v_y [m/s]
     radius: float = paper.FINGER_RADIUS  #: effective radius of the finger's disk [m]
     finger: PlanarFinger = USUAL_FINGER  #: its links
+    tip_turns: bool = True  #: whether the tip turns with the last link; else a wrist holds it
+    #: which point of a turning tip follows the command, one of `POINTS`; the centre of the disk
+    #: stays where it is along the belt
+    commanded_point: str = POINTS[CENTRE]
 
     def __post_init__(self) -> None:
         for name in ('belt_speed', 'radius'):
@@ -62,6 +70,10 @@ class RigConfig:
             if not (math.isfinite(value) and value > 0.0):
                 raise ValueError(f'{name}: expected a positive finite number, got {value}')
         check_friction(self.mu_c)
+        if self.commanded_point not in POINTS:
+            raise ValueError(
+                f'commanded_point: expected one of {POINTS}, got {self.commanded_point!r}'
+            )
         if not abs(self.theta) < math.pi / 2.0:
             raise ValueError(
                 f'theta: expected an edge that faces the belt, |theta| < pi/2 rad, got {self.theta}'
@@ -78,6 +90,14 @@ class RigConfig:
         """Where the contact starts along the path of the disk's centre around the object [m]."""
         return self.slider.outline.sigma(self.radius, d=self.d)
 
+    @cached_property
+    def tip(self) -> Tip:
+        """The last link as the compiled functions take it, with the knuckle left of the belt."""
+        links = self.finger
+        home = links.forward(math.pi - links.mount_angle, -math.pi / 2.0)
+        point = POINTS.index(self.commanded_point)
+        return Tip(links.proximal_length, links.distal_length, home.x, home.y, point)
+
 
 def paper_block(
     theta: float = paper.THETA_INITIAL,
@@ -86,6 +106,8 @@ def paper_block(
     mu_c: float = math.inf,
 ) -> RigConfig:
     """Return the paper's rectangular steel block, 5 cm x 4.75 cm, pushed at the 5 cm edge.
+
+    The finger's disk keeps its orientation, as in the paper's equations (footnote 3).
 
     Parameters
     ----------
@@ -104,11 +126,13 @@ def paper_block(
         The rig.
     """
     block = Outline.rectangle(paper.BLOCK_EDGE, paper.BLOCK_DEPTH)
-    return RigConfig(Slider(block, c), mu_c, theta, d)
+    return RigConfig(Slider(block, c), mu_c, theta, d, tip_turns=False)
 
 
 def paper_disk(theta: float = paper.THETA_INITIAL, mu_c: float = math.inf) -> RigConfig:
     """Return the paper's steel disk of radius 2.85 cm, its support uniform.
+
+    The finger's disk keeps its orientation, as in the paper's equations (footnote 3).
 
     Parameters
     ----------
@@ -123,7 +147,8 @@ def paper_disk(theta: float = paper.THETA_INITIAL, mu_c: float = math.inf) -> Ri
         The rig.
     """
     disk = Outline.circle(paper.DISK_RADIUS)
-    return RigConfig(Slider(disk, 2.0 / 3.0 * paper.DISK_RADIUS), mu_c, theta, 0.0)
+    slider = Slider(disk, 2.0 / 3.0 * paper.DISK_RADIUS)
+    return RigConfig(slider, mu_c, theta, 0.0, tip_turns=False)
 
 
 class Rig:
@@ -142,14 +167,14 @@ class Rig:
         self.config = config
         self.faults = faults
         self._body = config.body
-        # The knuckle points across the belt, the pole along it.
-        self._home = config.finger.forward(math.pi - config.finger.mount_angle, -math.pi / 2.0)
+        self._tip = config.tip
         self._commands = DelayLine()
         self.time = 0.0  #: how long it has been in motion [s]
         self.v_x = 0.0  #: the finger's velocity across the belt at the end of the last step [m/s]
         self.v_y = 0.0  #: the belt's speed at the end of the last step [m/s]
         self.finger_x = 0.0  #: centre of the finger's disk on the belt, from its start [m]
         self.finger_y = 0.0  #: the same along the belt, where the finger moves at +v_y [m]
+        self.psi = math.pi / 2.0  #: angle of the finger tip's pole in `finger_base` [rad]
         self.touching = True  #: whether finger and object touch
         self.sigma = config.sigma  #: position of the disk along its path around the object [m]
         self.mode = FREE  #: how the contact moved at the end of the last step, an index of `MODES`
@@ -196,14 +221,18 @@ class Rig:
         return MODES[self.mode]
 
     @property
-    def joints(self) -> tuple[float, float]:
-        """Angles of the finger's two moving joints [rad]."""
-        return self.config.finger.inverse(self._home.x + self.finger_x, self._home.y)
+    def joints(self) -> tuple[float, ...]:
+        """Angles of the finger's two moving joints and, if it has one, of the wrist [rad]."""
+        finger = self.config.finger
+        links = finger.inverse(self._tip.x + self.finger_x, self._tip.y)
+        if self.config.tip_turns:
+            return links
+        return *links, self.psi - pole_angle(finger.mount_angle, links)
 
     @property
     def finger_pose(self) -> FingerPose:
         """Pose of the finger tip in `finger_base`."""
-        return self.config.finger.forward(*self.joints)
+        return FingerPose(self._tip.x + self.finger_x, self._tip.y, self.psi)
 
     @property
     def object_in_finger_disk(self) -> Pose:
@@ -227,7 +256,7 @@ class Rig:
         """
         if not self.touching:
             return NO_CONTACT
-        return reading_of_contact(self.theta, self.finger_pose.psi) or NO_CONTACT
+        return reading_of_contact(self.theta, self.psi) or NO_CONTACT
 
     def step(self, v_x: float, duration: float, belt_running: bool = True) -> None:
         """Let the finger and the belt move for a while.
@@ -248,7 +277,8 @@ class Rig:
         for arrived, left in self._commands.arriving(v_x, self.time, duration, servo.delay):
             command = quantised(arrived, servo.velocity_quantum)
             while True:
-                longest = min(left, self._straight_time(command, belt_running))
+                even = self._even_time(command, duration, belt_running)
+                longest = min(left, even)
                 elapsed, mean, after = lagged(self.v_x, command, servo.time_constant, longest)
                 self.v_x = after
                 self._move_within_limits(mean, elapsed, belt_running)
@@ -258,29 +288,46 @@ class Rig:
         belt_speed = self.faults.belt.speed(self.config.belt_speed, self.time)
         self.v_y = belt_speed if belt_running else 0.0
 
-    def _straight_time(self, command: float, belt_running: bool) -> float:
-        """Return for how long a straight push may stand for the motion [s]."""
-        fastest = math.hypot(max(abs(self.v_x), abs(command)), self.config.belt_speed)
-        straight = self.faults.belt.straight(self.config.belt_speed) if belt_running else math.inf
-        return min(straight, self.faults.friction.even(fastest))
+    def _even_time(self, command: float, duration: float, belt_running: bool) -> float:
+        """Return for how long an even motion may stand for the true one in a step [s]."""
+        across = max(abs(self.v_x), abs(command))
+        even = self.faults.belt.straight(self.config.belt_speed) if belt_running else math.inf
+        even = min(even, self.faults.friction.even(math.hypot(across, self.config.belt_speed)))
+        if self.config.tip_turns and across * duration > EVEN_TURN:
+            even = min(even, duration / math.ceil(min(across * duration / EVEN_TURN, MOST_TURNS)))
+        return even
 
     def _move_within_limits(self, v_x: float, duration: float, belt_running: bool) -> None:
-        """Move straight on, and stop the finger where it can go no further."""
-        x = self._home.x + self.finger_x
-        inside = self.faults.workspace.time_inside(x, v_x, duration)
-        try:
-            self.config.finger.inverse(x + v_x * inside, self._home.y)
-        except OutOfReachError:
-            inside = 0.0
+        """Move evenly, and stop the finger where it can go no further."""
+        x = self._tip.x + self.finger_x
+        v_centre, psi = self._follow(v_x, duration)
+        inside = 0.0
+        if not math.isnan(psi):
+            inside = self.faults.workspace.time_inside(x, v_centre, duration)
         if inside > 0.0:
-            self._move(v_x, inside, belt_running)
+            if inside < duration:
+                psi = self._psi(x + v_centre * inside)
+            self._move(v_centre, psi, inside, belt_running)
         if inside < duration:
             self.at_workspace_limit = True
             self.v_x = 0.0
-            self._move(0.0, duration - inside, belt_running)
+            self._move(0.0, self.psi, duration - inside, belt_running)
 
-    def _move(self, v_x: float, duration: float, belt_running: bool) -> None:
-        """Move finger and belt straight on, and what they push."""
+    def _follow(self, v_x: float, duration: float) -> tuple[float, float]:
+        """Return the mean velocity of the disk's centre and psi at the end; NaN out of reach."""
+        x, way = self._tip.x + self.finger_x, v_x * duration
+        if self._tip.point == CENTRE or not self.config.tip_turns:
+            return v_x, self._psi(x + way)
+        after, psi = move_tip(self._tip, x, self.psi, way, self.theta, self.config.radius)
+        return (after - x) / duration, psi
+
+    def _psi(self, x: float) -> float:
+        """Return psi with the disk's centre at x; NaN out of reach."""
+        knuckle, distal = link_angles(x, self._tip.y, self._tip.a, self._tip.b)
+        return knuckle + distal if self.config.tip_turns or math.isnan(distal) else self.psi
+
+    def _move(self, v_x: float, psi: float, duration: float, belt_running: bool) -> None:
+        """Move the disk's centre and the belt straight on, and what they push."""
         v_y = 0.0
         if belt_running:
             v_y = self.faults.belt.mean_speed(self.config.belt_speed, self.time, duration)
@@ -292,9 +339,11 @@ class Rig:
         self.object_pose, self.sigma, self.touching, self.mode = move_finger(
             *(self.object_pose, self.sigma, self.touching, self.finger_x, self.finger_y),
             *(v_x, v_y, duration, self._body, Finger(*self._friction_cone, self.config.radius)),
+            (psi - self.psi) / duration,
         )
         self.finger_x += v_x * duration
         self.finger_y += v_y * duration
+        self.psi = psi
 
 
 def directions(theta: float, alpha: float, phi: float) -> dict[str, tuple[float, float]]:

@@ -26,6 +26,7 @@ from tactile_push.mechanics.contact import TOUCH, piece_at, reach
 from tactile_push.mechanics.push import push_body
 from tactile_push.simulation.rig import RigConfig
 from tactile_push.simulation.servo import Servo, lagged, quantised
+from tactile_push.simulation.tip import EVEN_TURN, Tip, move_tip
 
 THETA, PHI, D, X, Y, MODE = range(6)  # columns of a history
 QUANTITIES = 6  # how many columns that is
@@ -105,10 +106,69 @@ def _left_behind(
     return sigma, gap > TOUCH
 
 
+class Pushed(NamedTuple):
+    """Object, contact and finger in the course of a run."""
+
+    angle: float  #: orientation of the object [rad]
+    sigma: float  #: position of the disk's centre along its path around the object [m]
+    gone: bool  #: whether the contact is lost
+    mode: int  #: how the contact moved last
+    x: float  #: centre of the disk across the belt, from its start [m]
+    psi: float  #: angle of the finger tip [rad]
+
+
+@equation
+def _push(
+    pushed: Pushed,
+    v_x: float,
+    spin: float,
+    duration: float,
+    periods: Periods,
+    body: Body,
+    finger: Finger,
+) -> Pushed:
+    """Push while the disk's centre goes at v_x [m/s] and the disk turns by `spin` [rad/s]."""
+    v_y, gone = periods.belt_speed, False
+    angle, sigma, elapsed, mode = push_body(
+        pushed.angle, pushed.sigma, v_x, v_y, duration, body, finger, spin
+    )
+    if elapsed < duration:
+        sigma, gone = _left_behind(angle, sigma, v_x, v_y, duration - elapsed, body.path, finger.r)
+    x, psi = pushed.x + v_x * duration, pushed.psi + spin * duration
+    return Pushed(angle, sigma, gone, mode, x, psi)
+
+
+@compiled
+def _move(
+    pushed: Pushed,
+    v_x: float,
+    duration: float,
+    periods: Periods,
+    body: Body,
+    finger: Finger,
+    tip: Tip | None,  # an argument, or numba could not choose when it compiles
+) -> Pushed:
+    """Let the commanded point of the finger go at v_x [m/s] for a while."""
+    if tip is None:
+        return _push(pushed, v_x, 0.0, duration, periods, body, finger)
+    parts = max(1, math.ceil(abs(v_x) * duration / EVEN_TURN))
+    share = duration / parts
+    for _ in range(parts):
+        x = tip.x + pushed.x
+        theta = pushed.angle + tangent_angle(pushed.sigma, body.path)
+        after, psi = move_tip(tip, x, pushed.psi, v_x * share, theta, finger.r)
+        if math.isnan(psi):  # at the end of its reach the finger stays
+            after, psi = x, pushed.psi
+        spin = (psi - pushed.psi) / share
+        pushed = _push(pushed, (after - x) / share, spin, share, periods, body, finger)
+        if pushed.gone:
+            break
+    return pushed
+
+
 @equation
 def _follow(
-    angle: float,
-    sigma: float,
+    pushed: Pushed,
     commands: Array,
     k: int,
     velocity: float,
@@ -116,25 +176,22 @@ def _follow(
     periods: Periods,
     body: Body,
     finger: Finger,
-) -> tuple[float, float, bool, int, float, float]:
+    tip: Tip | None,
+) -> tuple[Pushed, float]:
     """Push for a period with a finger that follows the commands by its servo.
 
     A ring keeps the commands of this and of earlier periods. The delay lets two of them through in
     this period, first the older, then the newer.
     """
-    size, way, gone, mode, v_y = len(commands), 0.0, False, FREE, periods.belt_speed
+    size = len(commands)
     late = max(0.0, servo.delay - (size - 2) * periods.period)  # of the newer one, in the period
     for age, duration in ((size - 1, late), (size - 2, periods.period - late)):
         command = quantised(commands[(k - age) % size], servo.quantum)
-        while duration > 0.0 and not gone:
+        while duration > 0.0 and not pushed.gone:
             elapsed, mean, velocity = lagged(velocity, command, servo.time_constant, duration)
-            angle, sigma, pushed, mode = push_body(angle, sigma, mean, v_y, elapsed, body, finger)
-            if pushed < elapsed:
-                rest = elapsed - pushed
-                sigma, gone = _left_behind(angle, sigma, mean, v_y, rest, body.path, finger.r)
-            way += mean * elapsed
+            pushed = _move(pushed, mean, elapsed, periods, body, finger, tip)
             duration -= elapsed
-    return angle, sigma, gone, mode, velocity, way
+    return pushed, velocity
 
 
 @compiled
@@ -146,12 +203,14 @@ def run(
     body: Body,
     finger: Finger,
     servo: ServoNumbers | None,
+    tip: Tip | None,
     band: float,
     history: Array,
 ) -> tuple[int, int]:
     """Run the law (18) or, open loop, given pushes [rad], the last of which drives nothing.
 
-    Without a servo the finger follows its command perfectly. `history` takes the quantities at the
+    Without a servo the finger follows its command perfectly, and without a tip its disk keeps its
+    orientation. `history` takes the quantities at the
     start of every period, shape (steps + 1, 6), or of the last one, (1, 6). Return the number of
     the period at whose start finger and object touched for the last time, and the first period from
     which theta stays within the `band` around its desired value [rad], or -1.
@@ -159,15 +218,15 @@ def run(
     path, r = body.path, finger.r
     steps, period, belt_speed = periods
     theta, sigma, phi = start
-    angle = theta - tangent_angle(sigma, path)
-    x_f, y_f, mode, before, settled = 0.0, 0.0, FREE, theta, 0
+    pushed = Pushed(theta - tangent_angle(sigma, path), sigma, False, FREE, 0.0, math.pi / 2.0)
+    y_f, before, settled = 0.0, theta, 0
     all_steps = len(history) > steps
     if servo is not None:
         velocity = 0.0
         commands = np.zeros(math.floor(servo.delay / period + WHOLE) + 2)  # under way
     for k in range(steps + 1):
         row = k if all_steps else 0
-        theta = angle + tangent_angle(sigma, path)
+        theta = pushed.angle + tangent_angle(pushed.sigma, path)
         if pushes is None:
             if k > 0:
                 phi = _push_angle(
@@ -178,30 +237,24 @@ def run(
         before = theta
         if not abs(theta - law.theta_desired) <= band:
             settled = k + 1
-        now = Start(theta, sigma, phi)
+        now, x_f = Start(theta, pushed.sigma, phi), pushed.x
         if all_steps or k == steps:
-            _record(history[row], now, x_f, y_f, mode, path, r)
+            _record(history[row], now, x_f, y_f, pushed.mode, path, r)
         if k == steps:
             break
         v_x = _finger_velocity(phi, belt_speed)
-        gone = False
         if servo is None:
-            way = v_x * period
-            angle, sigma, elapsed, mode = push_body(
-                angle, sigma, v_x, belt_speed, period, body, finger
-            )
-            if elapsed < period:
-                sigma, gone = _left_behind(angle, sigma, v_x, belt_speed, period - elapsed, path, r)
+            pushed = _move(pushed, v_x, period, periods, body, finger, tip)
         else:
             commands[k % len(commands)] = v_x
-            angle, sigma, gone, mode, velocity, way = _follow(
-                angle, sigma, commands, k, velocity, servo, periods, body, finger
+            pushed, velocity = _follow(
+                pushed, commands, k, velocity, servo, periods, body, finger, tip
             )
-        if gone:
-            _record(history[row], now, x_f, y_f, mode, path, r)
+        if pushed.gone:
+            _record(history[row], now, x_f, y_f, pushed.mode, path, r)
             return k, -1
-        history[row, MODE] = mode
-        x_f, y_f = x_f + way, y_f + belt_speed * period
+        history[row, MODE] = pushed.mode
+        y_f += belt_speed * period
     return steps, settled if settled <= steps else -1
 
 
@@ -217,7 +270,8 @@ def rollout(
     Parameters
     ----------
     config : RigConfig
-        The object, the belt and where they start; the finger follows its commands.
+        The object, the belt and where they start; the finger follows its commands, and its tip
+        turns if the rig's does.
     law : PushLaw or array_like, shape () or (steps,)
         The control law, which is not changed and starts as after a reset to its present push
         angle, or the push angles themselves [rad], each in (0, pi).
@@ -267,6 +321,7 @@ def rollout(
         config.body,
         Finger(cos_alpha, sin_alpha, config.radius),
         None if servo is None else ServoNumbers(*astuple(servo)),
+        config.tip if config.tip_turns else None,
         math.inf,
         history,
     )

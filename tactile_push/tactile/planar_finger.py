@@ -88,15 +88,13 @@ class PlanarFinger:
             If the finger does not reach the place.
         """
         a, b = self.proximal_length, self.distal_length
-        bend = (x**2 + y**2 - a**2 - b**2) / (2.0 * a * b)
-        if not abs(bend) <= 1.0:
+        knuckle, distal = link_angles(x, y, a, b)
+        if math.isnan(distal):
             raise OutOfReachError(
                 f'the finger reaches {abs(a - b):.4f} to {a + b:.4f} m from its joint, '
                 f'not ({x:.4f}, {y:.4f}) m'
             )
-        distal = -math.acos(bend)
-        proximal = math.atan2(y, x) - math.atan2(b * math.sin(distal), a + b * math.cos(distal))
-        return math.remainder(proximal - self.mount_angle, 2.0 * math.pi), distal
+        return math.remainder(knuckle - self.mount_angle, 2.0 * math.pi), distal
 
     def turning(self, proximal: float, distal: float) -> float:
         """Find by how much the tip turns for each metre across the belt, dpsi/dx with y held.
@@ -127,6 +125,29 @@ class PlanarFinger:
 
 # Of rig and nodes unless somebody gives another, straight ahead. The lengths are picked.
 USUAL_FINGER = PlanarFinger(0.06, 0.08, math.pi / 2.0)
+
+
+def link_angles(x: float, y: float, a: float, b: float) -> tuple[float, float]:
+    """Find the directions of two links, the second bent clockwise, that reach a place.
+
+    Parameters
+    ----------
+    x, y : float
+        The place, from where the first link begins [m].
+    a, b : float
+        Lengths of the links [m].
+
+    Returns
+    -------
+    knuckle, distal : float
+        Direction of the first link, and of the second one from there [rad]; NaN where they do not
+        reach.
+    """
+    bend = (x**2 + y**2 - a**2 - b**2) / (2.0 * a * b)
+    if not abs(bend) <= 1.0:
+        return math.nan, math.nan
+    distal = -math.acos(bend)
+    return math.atan2(y, x) - math.atan2(b * math.sin(distal), a + b * math.cos(distal)), distal
 
 
 def pole_angle(mount_angle: float, joint_angles: Iterable[float]) -> float:

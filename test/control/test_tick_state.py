@@ -89,7 +89,7 @@ def test_old_bags_lack_two_times_and_two_angles():
     tick = tick_of(values)
     assert math.isnan(tick.elapsed)
     assert math.isnan(tick.finger_age)
-    assert math.isnan(tick.psi)
+    assert tick.psi == math.pi / 2.0
     assert tick.trim == 0.0
     assert replace(tick, elapsed=0.1, finger_age=0.01, psi=1.6, trim=0.02) == TICK
 

@@ -27,10 +27,12 @@ class Listener:
     """An estimator that only listens."""
 
     pushes: list[tuple[float, float, float, float]] = field(default_factory=list)
+    spins: list[float] = field(default_factory=list)
     resets: int = 0
 
-    def push(self, theta, v_x, v_y, duration):
+    def push(self, theta, v_x, v_y, duration, spin):
         self.pushes.append((theta, v_x, v_y, duration))
+        self.spins.append(spin)
 
     def estimate(self):
         return None
@@ -38,6 +40,7 @@ class Listener:
     def reset(self):
         self.resets += 1
         self.pushes.clear()
+        self.spins.clear()
 
 
 @pytest.fixture

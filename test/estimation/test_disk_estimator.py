@@ -20,7 +20,8 @@ DISK = 0.0285
 def followed(mu_c, c, theta, seed, steps=150):
     """Push a disk under the paper's law: estimates, and where the disk is and how it turns."""
     rng = np.random.default_rng(seed)
-    rig = Rig(RigConfig(Slider(Outline.circle(DISK), c), mu_c, theta, 0.0))
+    slider = Slider(Outline.circle(DISK), c)
+    rig = Rig(RigConfig(slider, mu_c, theta, 0.0, tip_turns=False))
     law, estimator = PushLaw(0.05, 5.0, math.radians(-10.0)), DiskEstimator(DISK, NOISE)
     x, rows = 0.0, []
     for k in range(steps + 1):

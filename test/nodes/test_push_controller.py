@@ -133,7 +133,7 @@ def test_a_gain_changes_while_it_runs_and_a_bound_on_phi_does_not(bench):
 @pytest.mark.parametrize(
     ('parameters', 'refusal'),
     [
-        ({'joint_names': ['one']}, 'parameter joint_names: expected two different names'),
+        ({'joint_names': ['one']}, 'parameter joint_names: expected two or three different names'),
         ({'workspace_min': 0.2}, 'parameter workspace_min: expected less than workspace_max'),
         ({'kp': -0.1}, 'parameter kp: expected'),
         ({'control_rate': 1}, 'parameter control_rate: expected'),

@@ -3,6 +3,7 @@
 """What is said of the object after a control period, and at which moment."""
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -36,6 +37,7 @@ def tick(number, theta, silence=0.02):
         ticks_lost=0,
         elapsed=0.1,
         finger_age=0.02,
+        psi=math.pi / 2.0,
     )
 
 
@@ -54,7 +56,7 @@ def sensed(**changed):
     )
     vars(estimate).update(changed.pop('estimate', {}))
     has_pose = changed.pop('has_pose', True)
-    return Sensed((10, 0), values, estimate, took=True, forgot='', has_pose=has_pose)
+    return Sensed((10, 0), values, estimate, took=True, forgot='', has_pose=has_pose, blind=False)
 
 
 def test_message_and_control_period_tell_the_same(sensing):
@@ -138,6 +140,6 @@ def test_readings_count_exactly_as_long_as_the_controller_believes_them(ticks):
         stamp = divmod(now, 1000)
         if ahead is not None:
             push.feel(0.1, (now + ahead) * 1e-3)
-        done = push.tick(stamp[0] + stamp[1] * 1e-3)
+        done = replace(push.tick(stamp[0] + stamp[1] * 1e-3), psi=1.5)
         sensed = sensing.tick(stamp, done)
         assert (sensed.values['readings'] > 0.0) == (done.state == PUSHING)

@@ -34,7 +34,7 @@ def sensed(time, d=math.nan, half=EDGE, bound=EDGE, contradiction=0, forgot='', 
         'contradiction': float(contradiction),
         'age': age,
     }
-    return Sensed(stamp(time), values, None, not math.isnan(d), forgot, has_pose=False)
+    return Sensed(stamp(time), values, None, not math.isnan(d), forgot, has_pose=False, blind=False)
 
 
 @pytest.fixture

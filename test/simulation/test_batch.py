@@ -121,7 +121,7 @@ def single(run, steps, **settings):
     """Make one run of a batch by itself."""
     law = PushLaw(run['kp'], run['kd'], run['theta_desired'], run['phi_min'], run['phi_max'])
     law.phi = run['phi']
-    config = RigConfig(run['slider'], run['mu_c'], run['theta'], run['d'])
+    config = RigConfig(run['slider'], run['mu_c'], run['theta'], run['d'], tip_turns=False)
     return rollout(config, law, steps, **settings)
 
 
@@ -225,7 +225,7 @@ def test_without_gains_the_batch_is_open_loop():
 def test_period_belt_speed_and_radius_are_those_of_all_runs():
     arguments = {'theta': 0.2, 'd': -0.004, 'mu_c': 0.2, 'kp': 0.05, 'kd': 5.0, 'steps': 30}
     found = rollouts(BLOCK, **arguments, period=0.07, belt_speed=0.011, radius=0.006, history=True)
-    config = RigConfig(BLOCK, 0.2, 0.2, -0.004, belt_speed=0.011, radius=0.006)
+    config = RigConfig(BLOCK, 0.2, 0.2, -0.004, belt_speed=0.011, radius=0.006, tip_turns=False)
     one = rollout(config, PushLaw(0.05, 5.0, 0.0), 30, period=0.07)
     for name in QUANTITIES:
         assert np.array_equal(getattr(found, name)[0], getattr(one, name))
@@ -242,7 +242,7 @@ def test_arguments_are_broadcast_against_each_other_and_the_sliders():
     two = [BLOCK, ELLIPSOIDS[1]]
     found = rollouts(two, theta=0.1, d=[-0.005], mu_c=[0.0, math.inf], steps=20)
     for i, mu_c in enumerate((0.0, math.inf)):
-        one = rollout(RigConfig(two[i], mu_c, 0.1, -0.005), AHEAD, 20)
+        one = rollout(RigConfig(two[i], mu_c, 0.1, -0.005, tip_turns=False), AHEAD, 20)
         assert found.theta[i] == one.theta[-1]
     alike = rollouts([BLOCK], theta=[0.1, 0.1, 0.2], steps=20)
     assert alike.theta.shape == (3,)

@@ -196,7 +196,8 @@ def test_pole_starts_along_the_belt_whatever_the_mount_angle(mount_angle):
 )
 @PROPERTY
 def test_reading_gives_theta_through_the_pole_angle(theta, v_x, mu_c, disk):
-    rig = Rig(paper_disk(theta, mu_c) if disk else paper_block(theta, 0.0, mu_c=mu_c))
+    config = paper_disk(theta, mu_c) if disk else paper_block(theta, 0.0, mu_c=mu_c)
+    rig = Rig(dataclasses.replace(config, tip_turns=True))
     psi_before = rig.finger_pose.psi
     for _ in range(5):
         rig.step(v_x, 0.1)
@@ -217,7 +218,7 @@ def test_reading_gives_theta_through_the_pole_angle(theta, v_x, mu_c, disk):
 
 
 def test_joints_carry_the_disk_where_the_finger_is():
-    rig = Rig(paper_block())
+    rig = Rig(block_config())
     before = rig.finger_pose
     rig.step(0.004, 0.5)
     after = rig.config.finger.forward(*rig.joints)
@@ -225,7 +226,7 @@ def test_joints_carry_the_disk_where_the_finger_is():
     assert after.y == pytest.approx(before.y, abs=1e-12)
     assert rig.finger_x == pytest.approx(0.002, abs=1e-12)
     assert rig.finger_y == pytest.approx(0.0025, abs=1e-12)  # on the belt, at v_y
-    assert after == rig.finger_pose
+    assert after.psi == pytest.approx(rig.psi, abs=1e-12)
 
 
 @pytest.mark.parametrize('v_x', [0.0, 0.002, -0.001])
@@ -605,7 +606,7 @@ def test_block_turns_about_a_corner_that_sticks_to_the_finger():
     # The finger does not turn, so neither does the normal while the corner sticks to it: theta
     # stays, and (9)-(11) hold with x_c at the corner of the turning block.
     v_x = -0.02
-    rig = Rig(block_config(0.0, 0.025))
+    rig = Rig(dataclasses.replace(block_config(0.0, 0.025), tip_turns=False))
     center = center_of(0.0, 0.025, 0.0, 0.0, BLOCK_L)
 
     def rates(state):
@@ -714,7 +715,7 @@ def mirrored(config):
     corners = config.slider.outline.points(1.0) * (-1.0, 1.0)
     first = np.roll(corners[::-1], 2, axis=0)  # the first edge stays the first
     slider = Slider(Outline.polygon(first), config.slider.c)
-    return RigConfig(slider, config.mu_c, -config.theta, -config.d)
+    return RigConfig(slider, config.mu_c, -config.theta, -config.d, tip_turns=False)
 
 
 @given(
@@ -726,7 +727,7 @@ def mirrored(config):
 )
 @PROPERTY
 def test_mirrored_motions_of_the_finger_have_mirrored_effects(path, corners, theta, share, mu_c):
-    config, _ = config_of(corners, theta, share, mu_c)
+    config = dataclasses.replace(config_of(corners, theta, share, mu_c)[0], tip_turns=False)
     rig, mirror = Rig(config), Rig(mirrored(config))
     for v_x, duration, belt_running in path:
         if abs(rig.finger_x + v_x * duration) > 0.05:  # the finger's reach is no mirror image

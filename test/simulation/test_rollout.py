@@ -279,8 +279,9 @@ def test_mirror_images_have_mirrored_rollouts(shape, theta, phi, theta_desired, 
     corners, d = shape
     # Mirrored, the corners come clockwise; the first edge stays the first.
     mirrored = np.roll((corners * (-1.0, 1.0))[::-1], 2, axis=0)
-    config = RigConfig(Slider(Outline.polygon(corners), c), mu_c, theta, d)
-    mirror = RigConfig(Slider(Outline.polygon(mirrored), c), mu_c, -theta, -d)
+    config = RigConfig(Slider(Outline.polygon(corners), c), mu_c, theta, d, tip_turns=False)
+    slider = Slider(Outline.polygon(mirrored), c)
+    mirror = RigConfig(slider, mu_c, -theta, -d, tip_turns=False)
     one = rollout(config, papers_law(theta_desired, phi), 60)
     other = rollout(mirror, papers_law(-theta_desired, math.pi - phi), 60)
     assert len(other.theta) == len(one.theta)
@@ -298,7 +299,7 @@ def test_mirror_images_have_mirrored_rollouts(shape, theta, phi, theta_desired, 
 @given(**RUNS, scale=st.one_of(st.sampled_from([1.0 / 64.0, 4.0]), st.floats(0.1, 10.0)))
 def test_scaled_lengths_scale_the_rollout(shape, theta, phi, theta_desired, c, mu_c, scale):
     corners, d = shape
-    config = RigConfig(Slider(Outline.polygon(corners), c), mu_c, theta, d)
+    config = RigConfig(Slider(Outline.polygon(corners), c), mu_c, theta, d, tip_turns=False)
     scaled = RigConfig(
         Slider(Outline.polygon(scale * corners), scale * c),
         mu_c,
@@ -306,6 +307,7 @@ def test_scaled_lengths_scale_the_rollout(shape, theta, phi, theta_desired, c, m
         scale * d,
         belt_speed=scale * V_Y,
         radius=scale * R,
+        tip_turns=False,
     )
     one = rollout(config, papers_law(theta_desired, phi), 60)
     other = rollout(scaled, papers_law(theta_desired, phi), 60)
@@ -324,7 +326,8 @@ def test_rollout_is_what_the_rig_does_until_contact_is_lost(
 ):
     corners, d = shape
     far = PlanarFinger(1.0, 1.0, 0.0)
-    config = RigConfig(Slider(Outline.polygon(corners), c), mu_c, theta, d, finger=far)
+    slider = Slider(Outline.polygon(corners), c)
+    config = RigConfig(slider, mu_c, theta, d, finger=far, tip_turns=False)
     result = rollout(config, papers_law(theta_desired, phi), 100)
     rig = Rig(config)
     steps = len(result.theta) - 1
@@ -375,7 +378,7 @@ def test_lost_contact_ends_the_rollout_with_the_reason(corners, theta, mu_c, phi
 
 def test_object_that_is_lost_in_the_first_period_leaves_the_start_alone():
     corners = [(-0.002, -0.002), (0.002, -0.002), (0.0, 0.003)]
-    config = RigConfig(Slider(Outline.polygon(corners), 0.002), 0.0, -0.5, 0.0)
+    config = RigConfig(Slider(Outline.polygon(corners), 0.002), 0.0, -0.5, 0.0, tip_turns=False)
     result = rollout(config, papers_law(), 10, period=20.0)
     assert len(result.theta) == 1
     assert result.mode.tolist() == [FREE]

@@ -4,6 +4,7 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
@@ -40,7 +41,8 @@ class Period(NamedTuple):
 def periods(ahead: int, count: int) -> Iterator[Period]:
     """Yield control periods while the sensor's clock is ahead by so many nanoseconds."""
     p = PushControllerParameters()
-    rig, random = Rig(paper_block()), np.random.default_rng(0)
+    rig = Rig(replace(paper_block(), tip_turns=True))
+    random = np.random.default_rng(0)
     control = Control(make_control(p), make_finger(p), p.joint_names, seconds)
     control.push.activate(0.0)
     contacts: list[Fields] = []
@@ -52,6 +54,8 @@ def periods(ahead: int, count: int) -> Iterator[Period]:
         for k in range(READINGS):
             share = PERIOD // READINGS
             rig.step(tick.v_x or 0.0, share * 1e-9, belt_running=tick.v_x is not None)
+            joints_at = divmod(now + (k + 1) * share, 10**9)
+            control.joint_states(joints_at, p.joint_names, rig.joints)
             theta = rig.theta + NOISE * random.standard_normal()
             at = divmod(now + (k + 1) * share + ahead, 10**9)
             contacts.append(pose_fields(at, 0.0, 0.0, theta))

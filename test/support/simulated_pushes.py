@@ -27,6 +27,7 @@ class Push:
 
     theta: float  # the reading
     v_x: float
+    spin: float
     duration: float
     d: float
     x: float  # centre of mass from the finger's disk [m]
@@ -34,10 +35,11 @@ class Push:
     angle: float  # of the object [rad]
 
 
-def rig_of(vertices, edge, theta, d, mu_c=math.inf, c=0.0187):
+def rig_of(vertices, edge, theta, d, mu_c=math.inf, c=0.0187, tip_turns=False):
     """Push an edge of a polygon, numbered from its first corner."""
     corners = np.roll(np.array(vertices), -edge, axis=0)
-    return Rig(RigConfig(Slider(Outline.polygon(corners), c), mu_c, theta, d))
+    slider = Slider(Outline.polygon(corners), c)
+    return Rig(RigConfig(slider, mu_c, theta, d, tip_turns=tip_turns))
 
 
 def pushes(rig, steps, seed, noise=NOISE, belt_stops=None):
@@ -45,11 +47,13 @@ def pushes(rig, steps, seed, noise=NOISE, belt_stops=None):
     rng = np.random.default_rng(seed)
     law = PushLaw(0.05, 5.0, math.radians(-10.0))
     length = rig.config.slider.outline.pieces[0, 3]
-    x, made = 0.0, []
+    x, psi, made = 0.0, rig.psi, []
     for k in range(steps + 1):
         theta, pose = rig.theta + noise * rng.standard_normal(), rig.object_in_finger_disk
         v_x, x = (rig.finger_x - x) / PERIOD, rig.finger_x
-        made.append(Push(theta, v_x, PERIOD if k else 0.0, rig.d, pose.x, pose.y, pose.angle))
+        spin, psi = (rig.psi - psi) / PERIOD, rig.psi
+        duration = PERIOD if k else 0.0
+        made.append(Push(theta, v_x, spin, duration, rig.d, pose.x, pose.y, pose.angle))
         running = belt_stops is None or k < belt_stops
         rig.step(finger_velocity(law.update(theta), BELT), PERIOD, running)
         if not rig.touching or not 0.0 <= rig.sigma <= length:
@@ -58,7 +62,7 @@ def pushes(rig, steps, seed, noise=NOISE, belt_stops=None):
 
 
 def pushes_by_a_tip(seed, steps=400, turn=0.0, stands_from=math.inf):
-    """Let the law push the block with a tip that turns by `turn` [rad/m] as the finger moves.
+    """Let the law push the block with a tip that turns by `turn` [rad/m], of which nobody tells.
 
     From step `stands_from` on the object stands still.
     """
@@ -68,7 +72,8 @@ def pushes_by_a_tip(seed, steps=400, turn=0.0, stands_from=math.inf):
     v_x, made = 0.0, []
     for k in range(steps + 1):
         reading = theta + NOISE * rng.standard_normal()
-        made.append(Push(reading, v_x, PERIOD if k else 0.0, d, math.nan, math.nan, theta))
+        duration = PERIOD if k else 0.0
+        made.append(Push(reading, v_x, 0.0, duration, d, math.nan, math.nan, theta))
         v_x = finger_velocity(law.update(reading), BELT)
         if k < stands_from:
             theta, d = pushed(slider, theta, d, math.inf, v_x, spin=turn * v_x)
@@ -79,4 +84,4 @@ def pushes_by_a_tip(seed, steps=400, turn=0.0, stands_from=math.inf):
 
 def follow(estimator, made):
     """Give the estimates, one a push."""
-    return [estimator.push(one.theta, one.v_x, BELT, one.duration) for one in made]
+    return [estimator.push(one.theta, one.v_x, BELT, one.duration, one.spin) for one in made]

@@ -29,6 +29,7 @@ from tactile_push.interface import (
     TOPICS,
     TRUE_POSE,
     TRUE_STATE,
+    WRIST_JOINT,
 )
 from tactile_push.nodes.ros.compiling import compiling
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
@@ -51,6 +52,7 @@ FRESHEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 MARKER_RATE = 10.0  # [Hz]; fluent enough to the eye
 REPEAT_PERIOD = 0.01  # of time and reading while time stands still [s]; late by no more; picked
 LOOK_PERIOD = 1.0  # at who commands [s]; as often as diagnostics report it
+JOINTS = (*TOPICS[JOINT_STATES].field_names, WRIST_JOINT)
 LONGEST_STEP = 0.1  # a late timer moves the real-time rig no further at once [s]: a control period
 
 
@@ -187,7 +189,7 @@ class PlantNode(Node, Generic[P]):
             self._time = self._steps * self._period
         self._publish_clock()
         stamp = self._stamp()
-        joints = dict(zip(TOPICS[JOINT_STATES].field_names, self._rig.joints, strict=True))
+        joints = dict(zip(JOINTS, self._rig.joints, strict=False))
         publish(self._joint_states, joint_state_fields((stamp.sec, stamp.nanosec), joints))
         self._publish_truth(stamp)
         every = max(1, round(self._settings.sensor_rate / MARKER_RATE))
@@ -235,6 +237,7 @@ class PlantNode(Node, Generic[P]):
             'v_x': rig.v_x,
             'v_x_commanded': self._v_x,
             'finger_x': rig.finger_x,
+            'psi': rig.psi,
             'belt_speed': rig.v_y,
             'belt_travel': rig.finger_y,
         }
