@@ -10,7 +10,7 @@ from tactile_push.mechanics.compiled import compiled, equation
 from tactile_push.tactile.planar_finger import link_angles
 
 # Way over which the tip turns as fast as on average [m]. Of the default finger within 4 cm psi is
-# then at most 1e-5 rad off on the way, and right at its end.
+# then at most 1.2e-5 rad off on the way, and right at its end.
 EVEN_TURN = 0.5e-3
 LEAST_FOLLOWING = 0.1  # share of the centre's way that the commanded point goes at least; picked
 NEWTON_STEPS = 12  # it takes three

@@ -17,6 +17,10 @@ from tactile_push.estimation import (
     edges_of,
     sensing_values,
 )
+from tactile_push.estimation.active_sensing import TIP_UNKNOWN
+from tactile_push.estimation.contradictions import BLIND, CONTRADICTIONS
+from tactile_push.interface import SILENT, STRAIGHT, WIDEN
+from tactile_push.mechanics import CENTRE, CONTACT, POLE
 
 BELT = 0.005
 PERIOD = 0.1
@@ -250,3 +254,87 @@ def test_whatever_it_is_told_its_intervals_are_in_order_and_within_the_edge(tick
             assert math.isfinite(values['theta'])
         if not math.isnan(values['d']):
             assert values['d_least'] <= values['d'] <= values['d_most']
+
+
+def test_push_is_told_with_how_fast_the_tip_turned_between_two_readings(sensing, listener):
+    # Readings 20 ms, 70 ms and 0 ms old; the tip's direction may pass pi.
+    sensing.tick(1.0, 0.30, 0.02, 0.001, 3.13)
+    sensing.tick(1.1, 0.31, 0.07, 0.004, 3.14)
+    sensing.tick(1.2, 0.32, 0.00, 0.002, 3.16 - 2.0 * math.pi)
+    assert listener.spins == [0.0, pytest.approx(0.01 / 0.05), pytest.approx(0.02 / 0.17)]
+
+
+@pytest.mark.parametrize(
+    ('point', 'added'),
+    [
+        (CENTRE, 0.0),
+        (POLE, 0.0135 * (math.cos(1.5) - math.cos(1.48))),  # it lies at r cos(psi)
+        (CONTACT, 0.0135 * math.cos(0.3) * -0.02),  # its material goes by -r dpsi cos(theta) less
+    ],
+)
+def test_way_is_that_of_the_disks_centre_whatever_point_is_commanded(listener, point, added):
+    sensing = ActiveSensing(listener, FingerMotion(), BELT, 0.3, point=point, radius=0.0135)
+    sensing.tick(1.0, 0.3, 0.0, 0.002, 1.5)
+    sensing.tick(1.1, 0.3, 0.0, 0.002, 1.48)
+    assert listener.pushes[-1][1] == pytest.approx(0.002 + added / 0.1)
+
+
+def test_reading_without_the_tips_direction_makes_the_next_push_longer(sensing, listener):
+    sensing.tick(1.0, 0.30, 0.0, 0.001, 1.50)
+    sensing.tick(1.1, 0.31, 0.0, 0.003, math.nan)
+    assert sensing.blind
+    assert not sensing.took
+    sensing.tick(1.2, 0.32, 0.0, 0.002, 1.52)
+    assert not sensing.blind
+    assert listener.pushes[1:] == [pytest.approx((0.32, 0.002, BELT, 0.2))]
+    assert listener.spins[1:] == [pytest.approx(0.1)]
+    assert listener.resets == 0
+
+
+def blinded(without_psi):
+    """Return active sensing after a push and then a second without the tip's direction."""
+    estimator = DiskEstimator(0.0285, 0.0035)
+    sensing = ActiveSensing(estimator, FingerMotion(), BELT, 0.3, without_psi=without_psi)
+    forgot = []
+    for k in range(13):
+        psi = 1.5 if k < 3 else math.nan
+        estimate = sensing.tick(0.1 * k, 0.1, 0.0, 0.001, psi)
+        forgot.append(sensing.forgot)
+    return sensing, estimate, forgot
+
+
+def test_silent_it_says_that_the_direction_is_unknown_and_nothing_else():
+    sensing, estimate, forgot = blinded(SILENT)
+    assert forgot == [''] * 6 + [TIP_UNKNOWN] + [''] * 6  # later than 0.3 s after the last push
+    assert sensing.readings == 0
+    assert not sensing.took
+    assert estimate.contradiction == BLIND
+    values = sensing_values(estimate, sensing)
+    assert CONTRADICTIONS[int(values['contradiction'])] == BLIND
+    assert math.isnan(values['d'])
+    told = sensing.tick(1.3, 0.1, 0.0, 0.001, 1.4)
+    assert sensing.readings == 1
+    assert told.contradiction == ''
+
+
+def test_widened_it_takes_each_reading_for_the_first():
+    sensing, estimate, forgot = blinded(WIDEN)
+    assert forgot.count(TIP_UNKNOWN) == 2  # after 0.6 s and 1.0 s
+    assert sensing.readings == 1
+    assert estimate.contradiction == ''
+
+
+def test_straight_tip_needs_no_direction():
+    sensing, _, forgot = blinded(STRAIGHT)
+    assert forgot == [''] * 13
+    assert sensing.readings == 13
+
+
+def test_straight_tip_is_as_before(listener):
+    told, untold = Listener(), Listener()
+    for heard, psi in ((told, (1.3,)), (untold, ())):
+        sensing = ActiveSensing(heard, FingerMotion(), BELT, 0.3, point=CONTACT)
+        for k in range(5):
+            sensing.tick(0.1 * k, 0.3 - 0.01 * k, 0.013, 0.001 * k, *psi)
+    assert told.pushes == untold.pushes
+    assert told.spins == untold.spins == [0.0] * 5

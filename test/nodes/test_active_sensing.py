@@ -27,7 +27,8 @@ from tactile_push.pipeline.stamps import stamp_of
 
 DISK = {'disk_radius': 0.03}
 TICK = Tick(
-    *('pushing', '', 0.1, math.pi / 2.0, 0.0, 0.02, False, False, math.nan, 1, 0, 0.1, math.nan)
+    *('pushing', '', 0.1, math.pi / 2.0, 0.0, 0.02, False, False, math.nan, 1, 0, 0.1, math.nan),
+    psi=math.pi / 2.0,
 )
 
 
@@ -97,6 +98,21 @@ def test_readings_that_no_object_gives_are_an_error(bench):
     assert level == ERROR
     assert words.startswith('nothing known: ')
     assert 'jump' in words
+
+
+@pytest.mark.parametrize(
+    ('without_psi', 'level', 'words'),
+    [
+        ('silent', ERROR, 'nothing known: the direction of the finger tip is unknown'),
+        ('widen', WARN, 'hardly estimating: the direction of the finger tip is unknown'),
+        ('straight', OK, 'estimating'),
+    ],
+)
+def test_a_tip_whose_direction_is_not_known_is_told(bench, without_psi, level, words):
+    node = bench.start(ActiveSensingNode, **DISK, without_psi=without_psi)
+    node._on_tick(period(replace(TICK, psi=math.nan, silence=0.0)))
+    assert bench.health[0] == level
+    assert bench.health[1].startswith(words)
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support.clock_apart import periods, seconds
+from support.clock_apart import PERIOD, START, periods, seconds
 from tactile_push.control import NO_REASON, PUSHING, PushLaw, Tick, tick_values
+from tactile_push.estimation.contradictions import BLIND
 from tactile_push.interface import OBJECT_POSE, SENSING_STATE
 from tactile_push.parameters.active_sensing import ActiveSensingParameters, make_sensing
 from tactile_push.parameters.push_controller import PushControllerParameters, make_control
@@ -122,6 +123,38 @@ def test_object_is_known_whenever_the_controller_pushes_whatever_the_sensors_clo
     assert pushed == known >= 63
     if abs(ahead) <= 20:
         assert right >= 63
+
+
+def test_direction_of_the_tip_is_that_at_the_moment_of_the_reading():
+    # The joints are heard 30 ms before a tick, the sensor 70 ms; the tip turns by 0.2 rad/s.
+    told = []
+
+    class Listener:
+        timeout = 0.3
+
+        def tick(self, stamp, theta, silence, v_x, psi):
+            told.append(psi)
+            raise StopIteration
+
+    sensing = Sensing(Listener(), seconds)
+    for k in range(4):
+        psi = 1.5 + 0.2 * (0.1 * k - 0.03)
+        with pytest.raises(StopIteration):
+            sensing.tick(
+                divmod(START * 10**9 + k * PERIOD, 10**9),
+                replace(tick(k, 0.1, 0.07), psi=psi, finger_age=0.03),
+            )
+    assert told == pytest.approx([1.494, *(1.5 + 0.2 * (0.1 * k - 0.07) for k in range(1, 4))])
+
+
+def test_without_joint_states_the_direction_of_the_tip_is_unknown():
+    sensing = Sensing(make_sensing(ActiveSensingParameters()), seconds)
+    for k in range(5):
+        at = divmod(START * 10**9 + k * PERIOD, 10**9)
+        sensed = sensing.tick(at, replace(tick(k, 0.1), psi=math.nan))
+        assert sensed.estimate.contradiction == BLIND
+        assert not sensed.known
+        assert list(sensed.outputs())[1:] == []
 
 
 # How long after the last one a tick comes, and how far ahead of it its reading is stamped [ms].

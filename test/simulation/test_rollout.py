@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from hypothesis import strategies as st
 
 from support.expected import FIGURE_8_SETTLE_STEP, assert_is_end_of_figure_8, each_step_of_figure_8
 from support.strategies import corners_on_ellipses
+from support.turning_tip import step_response
 from tactile_push.control import AHEAD, PushLaw, settle_step
 from tactile_push.mechanics import FREE, MODES, SLIP_LEFT, SLIP_RIGHT, STICK, Outline, Slider
 from tactile_push.simulation import (
@@ -20,6 +22,7 @@ from tactile_push.simulation import (
     paper_block,
     paper_disk,
     rollout,
+    rollouts,
 )
 from tactile_push.tactile import PlanarFinger
 
@@ -461,3 +464,35 @@ def test_object_that_a_lagging_finger_loses_ends_the_rollout():
     lost = rollout(config, AHEAD, 200, servo=Servo(time_constant=0.1))
     assert lost.end.startswith('the finger lost the object')
     assert len(lost.theta) == len(rollout(config, AHEAD, 200).theta)
+
+
+@pytest.mark.parametrize(('point', 'error'), [('centre', 1e-6), ('pole', 1e-6), ('contact', 5e-4)])
+def test_tip_that_turns_gives_the_step_response_of_plane_geometry(point, error):
+    # While the contact is commanded, theta counts as constant over half a millimetre.
+    config = replace(paper_block(), tip_turns=True, commanded_point=point)
+    found = rollout(config, papers_law(), 450)
+    theta, phi, d = np.array(step_response(450, point)).T
+    assert np.degrees(found.theta) == pytest.approx(theta, abs=error)
+    assert np.degrees(found.phi) == pytest.approx(phi, abs=10.0 * error)
+    assert found.d == pytest.approx(d, abs=1e-3 * error)
+    assert np.all(found.mode == STICK)
+
+
+@pytest.mark.parametrize('point', ['centre', 'pole', 'contact'])
+def test_rig_and_experiment_do_what_the_rollout_of_a_turning_tip_does(point):
+    config = replace(paper_block(mu_c=0.2), tip_turns=True, commanded_point=point)
+    found, expected = experiment(config, papers_law(), 200), rollout(config, papers_law(), 200)
+    assert (found.end, expected.end) == ('done', 'done')
+    for name in ('theta', 'phi', 'd', 'x', 'y'):
+        assert getattr(found, name) == pytest.approx(getattr(expected, name), abs=1e-7), name
+
+
+def test_batch_takes_the_tip_of_a_rig():
+    config = replace(paper_block(), tip_turns=True)
+    one = rollout(config, papers_law(), 100)
+    law = {'kp': 0.05, 'kd': 5.0, 'theta_desired': THETA_D}
+    many = rollouts(config.slider, theta=config.theta, d=config.d, steps=100, tip=config.tip, **law)
+    assert many.theta[0] == one.theta[-1]
+    assert many.d[0] == one.d[-1]
+    without = rollouts(config.slider, theta=config.theta, d=config.d, steps=100, **law)
+    assert abs(without.d[0] - many.d[0]) > 1e-4
