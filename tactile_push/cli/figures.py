@@ -13,10 +13,10 @@ def add(commands: Commands) -> None:
     """Add the command."""
     figures = commands.add_parser(
         'figures',
-        help='make figures 2, 3, 6, 7 and 8 of the paper and a map of the gains',
-        description='Writes figures 2, 3, 6, 7 and 8 of the paper, made by the library, and a map '
-        'of the gains that settle the block with a finger that lags behind its command, as PNG '
-        'and SVG.',
+        help='make figures 2, 3, 6, 7 and 8 of the paper, a map of the gains, and the drift',
+        description='Writes figures 2, 3, 6, 7 and 8 of the paper, made by the library, a map of '
+        'the gains that settle the block with a finger that lags behind its command, and the drift '
+        'of the block while the finger tip turns, as PNG and SVG.',
     )
     figures.add_argument(
         '-o',

@@ -8,6 +8,7 @@ from tactile_push.figures.limit_surfaces import limit_surface_figure, section_fi
 from tactile_push.figures.motion_cones import motion_cone_figure
 from tactile_push.figures.save import save_figures
 from tactile_push.figures.simulations import step_response_figure, trajectory_figure
+from tactile_push.figures.slow_mode import slow_mode_figure
 
 __all__ = [
     'gain_figure',
@@ -16,6 +17,7 @@ __all__ = [
     'plot_history',
     'save_figures',
     'section_figure',
+    'slow_mode_figure',
     'step_response_figure',
     'trajectory_figure',
 ]
