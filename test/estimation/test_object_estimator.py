@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -164,3 +165,30 @@ def test_estimators_without_sense_are_refused():
     for name, value in (('l_share', 0.4), ('radius_share', -0.1), ('radius', 0.0)):
         with pytest.raises(ValueError, match=name.removesuffix('_share')[0]):
             ObjectEstimator(edges, NOISE, **{name: value})
+
+
+def found_by_a_tip_that_turns(seed, *, told, start=None, steps=250):
+    """Return for each reading whether d was within its interval, and the last interval's width."""
+    rng = np.random.default_rng(seed)
+    theta, d = start or rng.uniform((-0.35, -0.006), (0.35, 0.006))
+    made = pushes(rig_of(BLOCK, 0, theta, d, tip_turns=True), steps, seed)
+    if not told:
+        made = [replace(one, spin=0.0) for one in made]
+    estimates = follow(ObjectEstimator(edges_of(BLOCK)[:1], NOISE), made)
+    assert all(e.d.least <= one.d <= e.d.most for e, one in zip(estimates, made, strict=True))
+    inside = [e.d.lower <= one.d <= e.d.upper for e, one in zip(estimates, made, strict=True)]
+    return inside, estimates[-1].d.upper - estimates[-1].d.lower
+
+
+def test_contact_is_found_by_a_tip_that_turns_if_somebody_tells_how_fast():
+    told = [found_by_a_tip_that_turns(seed, told=True)[0] for seed in range(4)]
+    untold = [found_by_a_tip_that_turns(seed, told=False)[0] for seed in range(4)]
+    assert np.mean(np.concatenate(told)) >= 0.93
+    assert np.mean(np.concatenate(untold)) < 0.5
+
+
+def test_contact_of_a_tip_that_turns_is_known_to_a_millimetre_and_a_half():
+    start = math.radians(20.0), -0.006
+    inside, width = found_by_a_tip_that_turns(1, told=True, start=start, steps=400)
+    assert np.mean(inside) >= 0.93
+    assert width <= 0.0015
