@@ -25,6 +25,7 @@ from tactile_push.interface import CLOCK
 from tactile_push.recording.simulated_time import SimulatedTime
 
 _TAKE_PERIOD = 0.02  # between looks for messages [s]; shorter costs processor time, see `_DEPTH`
+_LAST_FLIGHT = 0.05  # in which what was sent before the end arrives [s]; usually 1 ms
 _SEARCH_PERIOD = 0.1  # between looks for new topics, as in rosbag2 [s]
 _WATCH_LOOKS = 10  # looks for new topics between two at the publishers of recorded topics
 
@@ -108,10 +109,16 @@ class Recorder:
         return [topic for topic in self.counts if topic not in self._subscriptions]
 
     def stop(self) -> None:
-        """Record what has been received, and nothing more; further calls do nothing."""
-        end = time.time_ns()  # the same for all topics, which are taken one after another
-        for timer in self._timers:
-            self._node.destroy_timer(timer)
+        """Record what has been sent, and nothing more; further calls do nothing.
+
+        The end is the same for all topics, although a message may overtake one that led to it.
+        """
+        if not self._timers:
+            return
+        end = time.time_ns()
+        while self._timers:
+            self._node.destroy_timer(self._timers.pop())
+        time.sleep(_LAST_FLIGHT)
         try:
             self._take(end)
         finally:
@@ -200,14 +207,14 @@ class Recorder:
         )
 
     def _take(self, end: float = math.inf) -> None:
-        """Write what has been received until a time [ns], in the order in which it was."""
+        """Write what was sent or received until a time [ns], in the order in which it came."""
         waiting = self._simulated is not None and not self._simulated.running
         taken = [
             message
             for topic, subscription in self._subscriptions.items()
             if not (waiting and _is_latched(subscription))
             for message in _take_all(topic, subscription)
-            if message.received <= end
+            if min(message.sent, message.received) <= end
         ]
         if self._simulated is not None:
             for tick in _take_all(CLOCK, self._clock_subscription):
