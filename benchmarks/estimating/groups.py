@@ -50,6 +50,8 @@ class Group:
     l_error: float | None = None  # by how much l is wrong, either way, as a share
     r_error: float | None = None  # both by chance without, with the deviations that are told
     shares: float = 0.0  # standard deviations of l and r that it is told, as a share
+    tilt: float = 0.0  # mu_s times the height of the push above the exact support [m]
+    tilt_max: float = 0.0  # the greatest tilt that the estimator is told [m]
     rivals: bool = False  # whether the particle filter is tried, too
 
     @property
@@ -69,6 +71,7 @@ class Group:
             radius=RADIUS,
             radius_share=self.shares,
             outlier=max(self.outlier, 1e-3),
+            tilt=self.tilt_max,
         )
 
 
@@ -105,6 +108,19 @@ GROUPS = (
     Group('exact uniform, mu_c 0.3', 0.3, support=uniform),
     Group('exact corners, mu_c 0', 0.0, support=Support.corners),
     Group('exact uniform, mu_c 0', 0.0, support=uniform),
+    *(
+        Group(
+            f'{place}, mu_c {mu_c:g}, tilt {1e3 * tilt:g} of {1e3 * told:g} mm',
+            mu_c,
+            support=support,
+            tilt=tilt,
+            tilt_max=told,
+            shares=TENTH,
+        )
+        for place, support in (('corners', Support.corners), ('uniform', uniform))
+        for mu_c in (0.1, 0.5)
+        for tilt, told in ((0.005, 0.0), (0.005, 0.008), (0.0, 0.008))
+    ),
     Group('lag 0.1 s, measured', lag=0.1),
     Group('lag 0.3 s, known', lag=0.3, commanded=True),
     Group('outliers 1 %', outlier=0.01),
@@ -164,7 +180,7 @@ def experiment(group: Group, rng: np.random.Generator) -> Run:
     outline = Outline.polygon(corners)
     slider = Slider(outline, rng.uniform(*group.c))
     if group.support is not None:
-        slider = Slider.on(outline, group.support(outline), exact=True)
+        slider = Slider.on(outline, group.support(outline), exact=True, tilt=group.tilt)
     middle, half = sum(edge.d) / 2.0, edge.length / 2.0
     theta, d = rng.uniform(-0.4, 0.4), middle + rng.uniform(-0.8, 0.8) * half
     if group.start is not None:

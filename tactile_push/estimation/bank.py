@@ -87,7 +87,7 @@ class Bank:
         return np.exp(self._log_weights)
 
     def moments(self) -> tuple[Array, Array]:
-        """Return mean and covariance of all unknowns, shapes (8,) and (8, 8)."""
+        """Return mean and covariance of all unknowns, shapes (9,) and (9, 9)."""
         weights = self.weights
         mean = weights @ self._means
         offsets = self._means - mean

@@ -32,6 +32,7 @@ ALPHA_LOW, ALPHA_HIGH = 6, 7  # [rad]
 FACES = 8
 
 STEEPEST_EDGE = 100.0  # slope beyond which an edge of the motion cone is along the object's edge
+LEAST_SQUARE = 1e-8  # of c^2 + d^2 + l^2 [m^2]
 # More than the midpoint rule is wrong by in half a millimetre.
 ANGLE_SLACK = 2e-6  # [rad]
 LENGTH_SLACK = 1e-7  # [m]
@@ -53,6 +54,7 @@ class Bounds(NamedTuple):
     theta_0: float  # the first reading, turned as far as the disk has turned since [rad]
     turn: float  # how far omega may be from the ellipsoid's, as a share of it, below 1
     cone: float  # how far an edge of the motion cone may be from the ellipsoid's [rad]
+    tilt: float = 0.0  # greatest shift of the centre of friction by a push above the support [m]
 
 
 @equation
@@ -78,7 +80,12 @@ def squared(a: Interval) -> Interval:
 
 @equation
 def left_edge(
-    d: Interval, l: Interval, c_squared: Interval, cos_alpha: float, sin_alpha: float
+    d: Interval,
+    l: Interval,
+    c_squared: Interval,
+    tilt: float,
+    cos_alpha: float,
+    sin_alpha: float,
 ) -> tuple[float, float, float, float]:
     """Bound the direction of the motion cone's left edge: rightmost, then leftmost (t, n).
 
@@ -91,6 +98,11 @@ def left_edge(
     t_high = dl.high * cos_alpha - (c_squared.low + l.low * l.low) * sin_alpha
     n_low = (c_squared.low + dd.low) * cos_alpha - dl.high * sin_alpha
     n_high = (c_squared.high + dd.high) * cos_alpha - dl.low * sin_alpha
+    # About a centre that the force has shifted by s along itself, (f_n, -f_t) s m is added.
+    m_low = tilt * min(d.low * cos_alpha - l.high * sin_alpha, 0.0)
+    m_high = tilt * max(d.high * cos_alpha - l.low * sin_alpha, 0.0)
+    t_low, t_high = t_low + m_low * cos_alpha, t_high + m_high * cos_alpha
+    n_low, n_high = n_low + m_low * sin_alpha, n_high + m_high * sin_alpha
     if n_high <= 0.0:
         return -STEEPEST_EDGE, 1.0, -STEEPEST_EDGE, 1.0
     right_n = n_high if t_high < 0.0 else max(n_low, 0.0)
@@ -112,16 +124,22 @@ def slope(t: float, n: float) -> float:
 
 @equation
 def left_slopes(
-    d: Interval, l: Interval, c_squared: Interval, friction: Array, cos: float, sin: float
+    d: Interval,
+    l: Interval,
+    c_squared: Interval,
+    tilt: float,
+    friction: Array,
+    cos: float,
+    sin: float,
 ) -> tuple[float, float]:
     """Bound the slope of the motion cone's left edge for all frictions in a cell: most, then least.
 
     `friction` holds cosine and sine of the cell's least and of its greatest alpha, `cos` and `sin`
     are those of how far the edge may be from the ellipsoid's.
     """
-    t, n, _, _ = left_edge(d, l, c_squared, friction[0], friction[1])
+    t, n, _, _ = left_edge(d, l, c_squared, tilt, friction[0], friction[1])
     nearest = slope(cos * t + sin * n, cos * n - sin * t)
-    _, _, t, n = left_edge(d, l, c_squared, friction[2], friction[3])
+    _, _, t, n = left_edge(d, l, c_squared, tilt, friction[2], friction[3])
     return nearest, slope(cos * t - sin * n, cos * n + sin * t)
 
 
@@ -140,7 +158,7 @@ def rate_bounds(
     Return bounds of omega, the rate of theta [rad/s], and of the velocity of slip, the rate of
     d + r (theta - theta_0) [m/s]. `friction`, `cos` and `sin` are as in `left_slopes`.
     """
-    l = bounds.l
+    l, tilt = bounds.l, bounds.tilt
     cos_theta, sin_theta = math.cos(theta), math.sin(theta)
     v_t = cos_theta * push.v_x + sin_theta * push.v_y
     v_n = cos_theta * push.v_y - sin_theta * push.v_x
@@ -150,10 +168,10 @@ def rate_bounds(
     d = Interval(cell[ROLLED_LOW] - rolled.high, cell[ROLLED_HIGH] - rolled.low)
     c_squared = Interval(cell[C_SQUARED_LOW], cell[C_SQUARED_HIGH])
     if v_n > 0.0:
-        left_most, left_least = left_slopes(d, l, c_squared, friction, cos, sin)
+        left_most, left_least = left_slopes(d, l, c_squared, tilt, friction, cos, sin)
         # The right edge is the left one's mirror image.
         mirrored = Interval(-d.high, -d.low)
-        right_most, right_least = left_slopes(mirrored, l, c_squared, friction, cos, sin)
+        right_most, right_least = left_slopes(mirrored, l, c_squared, tilt, friction, cos, sin)
         slip_low = slip(t_low, v_n, left_most, right_least)
         slip_high = slip(t_high, v_n, left_least, right_most)
         # What the finger does not slip, the object goes along; the faster the finger the faster.
@@ -169,8 +187,12 @@ def rate_bounds(
     if v_n <= 0.0:
         turn_low, turn_high = min(turn_low, 0.0), max(turn_high, 0.0)
     dd, share = squared(d), bounds.turn
-    least = c_squared.low + dd.low + l.low * l.low
-    most = c_squared.high + dd.high + l.high * l.high
+    # The force shifts the centre along itself, so c^2 + d^2 + l^2 grows by l s_n - d s_t.
+    aside, farthest = tilt * friction[3], math.sqrt(dd.high)
+    worst = min(max(aside / 2.0, math.sqrt(dd.low)), farthest)  # the |d| that makes it least
+    least = c_squared.low + worst * (worst - aside) + l.low * l.low
+    most = c_squared.high + dd.high + l.high * l.high + tilt * l.high + aside * farthest
+    least = max(least, LEAST_SQUARE)  # a shift beyond all objects bounds nothing
     omega_low = turn_low * ((1.0 + share) / least if turn_low < 0.0 else (1.0 - share) / most)
     omega_high = turn_high * ((1.0 + share) / least if turn_high > 0.0 else (1.0 - share) / most)
     return Interval(omega_low, omega_high), Interval(slip_low, slip_high)
@@ -180,7 +202,7 @@ def rate_bounds(
 def turned_on(bounds: Bounds, angle: float) -> Bounds:
     """Return the bounds after the finger's disk has turned by an angle."""
     theta_0 = bounds.theta_0 + angle
-    return Bounds(bounds.d, bounds.l, bounds.r, theta_0, bounds.turn, bounds.cone)
+    return Bounds(bounds.d, bounds.l, bounds.r, theta_0, bounds.turn, bounds.cone, bounds.tilt)
 
 
 @compiled

@@ -40,6 +40,8 @@ class DiskEstimator(Estimator):
         Its standard deviation, as a share of it.
     outlier : float, optional
         Probability that a reading is wrong altogether.
+    tilt : float, optional
+        Greatest mu_s times height of the push above the support [m]; see `ExactLimitSurface`.
 
     Raises
     ------
@@ -58,9 +60,10 @@ class DiskEstimator(Estimator):
         radius: float = FINGER_RADIUS,
         radius_share: float = 0.085,
         outlier: float = 0.001,
+        tilt: float = 0.0,
     ) -> None:
         estimator = ContactEstimator(
-            Prior((0.0, 0.0), disk_radius, l_share * disk_radius, c, mu_c),
+            Prior((0.0, 0.0), disk_radius, l_share * disk_radius, c, mu_c, tilt=tilt),
             noise,
             radius=radius,
             radius_sigma=radius_share * radius,

@@ -56,7 +56,7 @@ class GuaranteedSet:
         slack = 3.0 * prior.l_sigma
         l = Interval(prior.l - slack, prior.l + slack)
         d, r = Interval(*prior.d), Interval(*radius)
-        self._bounds = Bounds(d, l, r, theta, bounds.turn, bounds.cone)
+        self._bounds = Bounds(d, l, r, theta, bounds.turn, bounds.cone, prior.tilt)
         self._cells = np.zeros((CELLS, FACES))
         low, high = theta - bounds.noise, theta + bounds.noise
         rolled = radius[1] * bounds.noise

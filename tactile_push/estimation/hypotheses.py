@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Many guesses of where on the edge the finger is: the mechanics moves them, readings correct them.
 
-A hypothesis is a weight and a Gaussian of the eight numbers that the mechanics needs, in the order
+A hypothesis is a weight and a Gaussian of the nine numbers that the mechanics needs, in the order
 of the columns below. A push moves points around the mean by `pushed_twist` (the cubature rule,
 exact to the third order), so sticking, slipping and the passage between them need no derivatives.
 A reading of theta corrects the Gaussian as in a Kalman filter, and its likelihood changes the
@@ -30,7 +30,8 @@ L = 4  # distance from the edge to the centre of mass [m]
 R = 5  # radius of the finger's disk [m]
 GROWTH = 6  # by how much c^2 grows while the object turns, see `resistance`
 SHAPE = 7  # how far c^2 depends on the direction of motion, see `resistance`
-UNKNOWNS = 8
+TILT = 8  # mu_s times the height of the push above the support [m], see `resistance`
+UNKNOWNS = 9
 
 LASTING = 5e-3  # way over which errors last, and over which the motion is averaged [m]
 SHORTEST = 1e-9  # way that counts as none [m]
@@ -80,14 +81,16 @@ def advance(
     cos_alpha, sin_alpha = cone_of_angle(alpha)
     cos, sin = math.cos(theta), math.sin(theta)
     v_t, v_n = cos * v_x + sin * v_y - passing, cos * v_y - sin * v_x
-    c_squared, omega, v_slip = settled(v_t, v_n, d, l, cos_alpha, sin_alpha, pressure)
+    c_squared, d_shifted, l_shifted, omega, v_slip = settled(
+        v_t, v_n, d, l, cos_alpha, sin_alpha, pressure
+    )
     v_along = v_slip - omega * r + passing  # (16)
     theta_half = theta + half * (omega + around * v_along)
-    d_half = d + half * along * v_along
+    d_half = d_shifted + half * along * v_along
     cos, sin = math.cos(theta_half), math.sin(theta_half)
     v_t, v_n = cos * v_x + sin * v_y - passing, cos * v_y - sin * v_x
     _, _, omega, v_slip, _ = pushed_twist(
-        v_t, v_n, d_half, -l, cos_alpha, sin_alpha, math.sqrt(c_squared)
+        v_t, v_n, d_half, -l_shifted, cos_alpha, sin_alpha, math.sqrt(c_squared)
     )
     v_along = v_slip - omega * r + passing
     return (
@@ -148,7 +151,9 @@ def push_points(
         for j in range(UNKNOWNS):
             point[j] = mean[j] + deviations[i, j]
         log_c = min(max(point[LOG_C], LEAST_LOG_C), MOST_LOG_C)
-        pressure = Pressure(math.exp(2.0 * log_c), point[GROWTH], point[SHAPE], moments)
+        pressure = Pressure(
+            math.exp(2.0 * log_c), point[GROWTH], point[SHAPE], moments, point[TILT]
+        )
         ends[i, 0], ends[i, 1], point_slip = advance(
             point[THETA], point[D], point[ALPHA], point[L], point[R], pressure, push, curved
         )
@@ -231,9 +236,9 @@ def add_errors(
         covariance[THETA, THETA] += added
     else:
         # A turn that differs from the model's rolls the contact on, and makes it slip: the
-        # centre of mass moves along the force, and the edge there goes with the turn.
+        # centre of friction moves along the force, and the edge there goes with the turn.
         steep = min(sin / max(cos, LEAST_COSINE), STEEPEST_FORCE)
-        lever = r + slipping * (l - math.copysign(steep, moved.slip) * mean[D])
+        lever = r + slipping * (l + mean[TILT] - math.copysign(steep, moved.slip) * mean[D])
         covariance[THETA, THETA] += turn_variance
         covariance[THETA, D] -= lever * turn_variance
         covariance[D, THETA] -= lever * turn_variance

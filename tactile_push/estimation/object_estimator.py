@@ -122,6 +122,8 @@ class ObjectEstimator(Estimator):
         Its standard deviation, as a share of it.
     outlier : float, optional
         Probability that a reading is wrong altogether.
+    tilt : float, optional
+        Greatest mu_s times height of the push above the support [m]; see `ExactLimitSurface`.
 
     Raises
     ------
@@ -140,6 +142,7 @@ class ObjectEstimator(Estimator):
         radius: float = FINGER_RADIUS,
         radius_share: float = 0.085,
         outlier: float = 0.001,
+        tilt: float = 0.0,
     ) -> None:
         if not edges:
             raise ValueError('edges: expected one or more')
@@ -158,7 +161,7 @@ class ObjectEstimator(Estimator):
         self._shares = lengths / together[place_of]
         estimators = [
             ContactEstimator(
-                Prior(place.d, place.l, l_share * place.l, c, mu_c, place.moments),
+                Prior(place.d, place.l, l_share * place.l, c, mu_c, place.moments, tilt),
                 noise,
                 radius=radius,
                 radius_sigma=radius_share * radius,

@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from tactile_push.estimation.hypotheses import ALPHA, GROWTH, LOG_C, SHAPE, UNKNOWNS, D, L, R
+from tactile_push.estimation.hypotheses import ALPHA, GROWTH, LOG_C, SHAPE, TILT, UNKNOWNS, D, L, R
 from tactile_push.mechanics import check_friction
 from tactile_push.mechanics.compiled import Array
 
@@ -22,6 +22,7 @@ NONE, SOME, STICKS = range(3)  # kinds of friction: mu_c = 0, between, infinite
 ROUND = (1.0, 0.0, 1.0)  # second moments of an area without preferred direction
 NEAR_ONE = 1e-6
 SLENDER = 1.5  # ratio of the principal second moments from which directions differ much
+TILT_SHARE = 1.0 / 3.0  # standard deviation of the tilt, of the greatest one
 SHARES = (0.25, 0.5, 0.25)  # of the kinds, before any data
 
 
@@ -41,6 +42,8 @@ class Prior:
     c: tuple[float, float] = (0.005, 0.036)  #: least and most c [m]
     mu_c: tuple[float, float] = (0.0, math.inf)  #: least and most friction of finger and object
     moments: tuple[float, float, float] = ROUND  #: second moments of the object's area, see `Edge`
+    #: greatest tilt, mu_s times the height of the push above the support [m]; the least is 0
+    tilt: float = 0.0
     #: probability density over (d, c, mu_c), up to a factor; by default even over d, c and the
     #: angle of friction, with 0 and infinity as likely as half of what is between, each
     density: Callable[[float, float, float], float] | None = None
@@ -62,6 +65,8 @@ class Prior:
             raise ValueError(
                 f'moments: expected a positive form of determinant 1, got {xx, xy, yy}'
             )
+        if not (math.isfinite(self.tilt) and self.tilt >= 0.0):
+            raise ValueError(f'tilt: expected a finite length of 0 or more [m], got {self.tilt}')
         for mu_c in self.mu_c:
             check_friction(mu_c)
         if not self.mu_c[0] <= self.mu_c[1]:
@@ -118,6 +123,7 @@ def spread(
                 mean[D], mean[LOG_C] = (d_low + d_high) / 2.0, math.log(c_low * c_high) / 2.0
                 mean[ALPHA], mean[L] = angle, prior.l
                 mean[R], mean[GROWTH], mean[SHAPE] = radius[0], growth[0], shape[0]
+                mean[TILT] = prior.tilt / 2.0
                 weight = share * (c_high - c_low)
                 if prior.density is not None:
                     middle = math.exp(mean[LOG_C])
@@ -128,7 +134,7 @@ def spread(
                 variances[LOG_C] = math.log(c_high / c_low) ** 2 / 12.0
                 variances[ALPHA], variances[L] = variance, prior.l_sigma**2
                 variances[R], variances[GROWTH] = radius[1] ** 2, growth[1] ** 2
-                variances[SHAPE] = shape[1] ** 2
+                variances[SHAPE], variances[TILT] = shape[1] ** 2, (TILT_SHARE * prior.tilt) ** 2
                 covariances.append(np.diag(variances))
                 kinds.append(kind)
                 weights.append(weight)

@@ -1,11 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""How an object turns if its limit surface is not an ellipsoid.
+"""How an object turns if its limit surface is not an ellipsoid, or the push is above its support.
 
 c^2 is (m/f)/(omega/|v|), force and motion being those at the centre of mass: one number on an
 ellipsoid. Under any pressure it is the second moment of the load along the direction in which the
 centre of mass moves, as long as the object hardly turns. The more it turns for its way the larger
 c^2 becomes, up to a limit when it only spins.
+
+A push above the support moves the centre of friction along the force, from the centre of mass by
+`tilt` f / f_max. The force's moment stays as it is; the object turns about the shifted centre.
 """
 
 import math
@@ -32,6 +35,9 @@ class Pressure(NamedTuple):
     # Second moments of the area along the tangent, mixed and along the normal, divided by the root
     # of their determinant, shape (3,).
     moments: Array
+    # mu_s times the height of the push above the support [m]; below 0 only in a hypothesis' points,
+    # whose mean would be wrong if they were cut off.
+    tilt: float = 0.0
 
 
 class Push(NamedTuple):
@@ -82,17 +88,20 @@ def settled(
     cos_alpha: float,
     sin_alpha: float,
     pressure: Pressure,
-) -> tuple[float, float, float]:
-    """Find the c^2 [m^2] that fits the motion which it causes under a push.
+) -> tuple[float, float, float, float, float]:
+    """Find the c^2 [m^2] and the shifted contact that fit the motion which they cause under a push.
 
     omega = A/(c^2 + B) with A and B of (11) for a sticking contact, and of (13) and (15) for one
-    that slips, where the centre of mass moves as the force acts. Arguments are those of
-    `pushed_twist`. Return c^2, omega [rad/s] and the velocity of slip (14) [m/s], too.
+    that slips, where the centre of friction moves as the force acts. A is the same about the
+    centre of mass and about the shifted centre. Arguments are those of `pushed_twist`. Return c^2,
+    d and l of the contact from the shifted centre [m], omega [rad/s] and the velocity of slip (14)
+    [m/s].
     """
     now = resistance(v_t, v_n, 0.0, pressure)
     _, _, omega, v_slip, mode = pushed_twist(v_t, v_n, d, -l, cos_alpha, sin_alpha, math.sqrt(now))
-    if mode == FREE or (pressure.growth == 0.0 and pressure.shape == 0.0):
-        return now, omega, v_slip
+    tilt = pressure.tilt
+    if mode == FREE or (pressure.growth == 0.0 and pressure.shape == 0.0 and tilt == 0.0):
+        return now, d, l, omega, v_slip
     steep, square = 0.0, d * d + l * l  # of the force, and B
     if mode != STICK:
         steep = sin_alpha / max(cos_alpha, LEAST_COSINE)
@@ -100,11 +109,22 @@ def settled(
             steep = -steep
         square = d * (d + l * steep)
     turn = omega * (now + square)
+    d_shifted, l_shifted = d, l
     for _ in range(ROUNDS):
-        forward = v_n - d * omega
-        aside = v_t - l * omega if mode == STICK else steep * forward
+        forward = v_n - d_shifted * omega
+        aside = v_t - l_shifted * omega if mode == STICK else steep * forward
         # Where one c^2 is too large the next is too small.
         now = (now + resistance(aside, forward, omega, pressure)) / 2.0
+        if tilt != 0.0:
+            # |f| / f_max on the ellipsoid, which the centre's velocity is parallel to.
+            spread = aside * aside + forward * forward + now * omega * omega
+            lever = tilt / math.sqrt(max(spread, SLOWEST))
+            d_shifted, l_shifted = d - lever * aside, l + lever * forward
+            square = d_shifted * d + l_shifted * l
+            if mode != STICK:
+                square = d_shifted * (d + l * steep)
         omega = turn / max(now + square, LEAST * now)
-    _, _, omega, v_slip, _ = pushed_twist(v_t, v_n, d, -l, cos_alpha, sin_alpha, math.sqrt(now))
-    return now, omega, v_slip
+    _, _, omega, v_slip, _ = pushed_twist(
+        v_t, v_n, d_shifted, -l_shifted, cos_alpha, sin_alpha, math.sqrt(now)
+    )
+    return now, d_shifted, l_shifted, omega, v_slip

@@ -45,6 +45,10 @@ class ActiveSensingParameters(NodeParameters):
     mu_c_max: float = parameter(math.inf, '',
         'largest friction between finger and object that is possible; may be .inf',
         0.0, read_only=True)
+    tilt_max: float = parameter(0.008, 'm',
+        'greatest mu_s times height of the contact above the belt that is possible; 0 for a push '
+        'at the belt',
+        0.0, 0.1, read_only=True)
     noise: float = parameter(0.0035, 'rad',
         'standard deviation of the readings of theta', 1e-5, 0.5, read_only=True)
     finger_radius: float = shared.finger_radius
@@ -114,7 +118,7 @@ def make_sensing(p: ActiveSensingParameters) -> 'ActiveSensing':
             raise ValueError(f'{name}_max: expected more than {name}_min = {low:g}, got {high:g}')
     estimator: ObjectEstimator | DiskEstimator
     if p.disk_radius > 0.0:
-        estimator = DiskEstimator(p.disk_radius, p.noise, radius=p.finger_radius)
+        estimator = DiskEstimator(p.disk_radius, p.noise, radius=p.finger_radius, tilt=p.tilt_max)
     else:
         numbers = len(p.vertices)
         if numbers % 2 or numbers < 6:
@@ -133,6 +137,7 @@ def make_sensing(p: ActiveSensingParameters) -> 'ActiveSensing':
             mu_c=(p.mu_c_min, p.mu_c_max),
             l_share=p.l_share,
             radius=p.finger_radius,
+            tilt=p.tilt_max,
         )
     motion = FingerMotion(p.finger_lag, p.finger_delay)
     return ActiveSensing(

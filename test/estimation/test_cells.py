@@ -7,7 +7,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from support.pushed_block import HALF, OUTLINE, RADIUS, pushed
+from support.pushed_block import HALF, OUTLINE, RADIUS, pushed, pushed_above
 from tactile_push.estimation.cells import (
     FACES,
     Bounds,
@@ -37,9 +37,15 @@ def box_around(rng, theta, d, c, mu_c):
 
 
 @pytest.mark.parametrize('mu_c', [0.0, 0.1, 0.5, math.inf])
-@pytest.mark.parametrize('support', [None, 'corners', 'rim', 'uniform'])
+@pytest.mark.parametrize(
+    ('support', 'tilt'),
+    [
+        *((None, 0.0), ('corners', 0.0), ('rim', 0.0), ('uniform', 0.0)),
+        *(('corners', 0.005), ('uniform', 0.005)),
+    ],
+)
 @pytest.mark.parametrize('turning', [0.0, 0.1])  # of the finger's disk, at the most [rad/s]
-def test_the_truth_stays_in_its_cell(mu_c, support, turning):
+def test_the_truth_stays_in_its_cell(mu_c, support, turning, tilt):
     rng = np.random.default_rng(3)
     for i in range(60):
         spin = turning * math.cos(i)
@@ -49,7 +55,8 @@ def test_the_truth_stays_in_its_cell(mu_c, support, turning):
             slider = Slider(OUTLINE, rng.uniform(0.005, 0.036))
         else:
             count = () if support == 'corners' else (60,)
-            slider = Slider.on(OUTLINE, getattr(Support, support)(OUTLINE, *count), exact=True)
+            made = getattr(Support, support)(OUTLINE, *count)
+            slider = Slider.on(OUTLINE, made, exact=True, tilt=rng.uniform(0.0, tilt))
             share, angle = 0.6, math.radians(15.0)  # of this c, not of the best one
         cell = box_around(rng, theta, d, slider.c, mu_c)
 
@@ -60,6 +67,7 @@ def test_the_truth_stays_in_its_cell(mu_c, support, turning):
             0.0,
             share,
             angle,
+            tilt,
         )
         left = push_cells(cell, Push(v_x, 0.005, 0.1, spin), bounds)
 
@@ -67,6 +75,56 @@ def test_the_truth_stays_in_its_cell(mu_c, support, turning):
         assert left == 1
         assert cell[0, 0] <= theta <= cell[0, 1]
         assert cell[0, 2] <= d + RADIUS * (theta - 0.1 * spin) <= cell[0, 3]
+
+
+@pytest.mark.parametrize('mu_c', [0.0, 0.2, 1.0, math.inf])
+def test_an_object_that_turns_about_a_shifted_centre_stays_in_its_cell(mu_c):
+    # An ellipsoid needs no liberties but the shift. Without this one it leaves the narrow cells.
+    rng = np.random.default_rng(5)
+    told, untold = 0, 0
+    for _ in range(40):
+        theta, d = rng.uniform(-0.4, 0.4), rng.uniform(-0.015, 0.015)
+        c, v_x = rng.uniform(0.01, 0.036), rng.uniform(-0.004, 0.004)
+        shift = 0.008 * rng.uniform(0.0, 1.0)
+        after, d_after = pushed_above(shift, theta, d, c, mu_c, v_x, duration=0.05)
+        for tilt in (0.008, 0.0):
+            values = theta, d + RADIUS * theta, c * c, math.atan(mu_c)
+            cell = np.repeat(np.array([values]), 2, axis=1)
+            bounds = Bounds(
+                *(Interval(-0.025, 0.025), Interval(HALF, HALF), Interval(RADIUS, RADIUS)),
+                *(0.0, 0.0, 0.0, tilt),
+            )
+            left = push_cells(cell, Push(v_x, 0.005, 0.05), bounds)
+            inside = left == 1 and cell[0, 0] <= after <= cell[0, 1]
+            inside = inside and cell[0, 2] <= d_after + RADIUS * after <= cell[0, 3]
+            if tilt > 0.0:
+                told += inside
+            else:
+                untold += inside
+    assert told == 40
+    assert untold < 10
+
+
+@pytest.mark.parametrize('mu_c', [0.2, math.inf])
+def test_a_wide_cell_holds_what_turns_about_a_shifted_centre(mu_c):
+    # d is anywhere on a long edge near the centre of mass, where the shift counts most.
+    rng = np.random.default_rng(6)
+    long, l = Interval(-0.04, 0.04), 0.006
+    for _ in range(40):
+        theta, d = rng.uniform(-0.4, 0.4), rng.uniform(-0.02, 0.02)
+        c, v_x = rng.uniform(0.005, 0.01), rng.uniform(-0.004, 0.004)
+        cell = np.array(
+            [[theta, theta, -0.04 + RADIUS * theta, 0.04 + RADIUS * theta, c * c, c * c]]
+        )
+        cell = np.hstack([cell, [[0.0, math.atan(mu_c)]]])
+        bounds = Bounds(*(long, Interval(l, l), Interval(RADIUS, RADIUS), 0.0, 0.0, 0.0, 0.004))
+
+        left = push_cells(cell, Push(v_x, 0.005, 0.05), bounds)
+
+        after, d_after = pushed_above(0.004, theta, d, c, mu_c, v_x, l, 0.05)
+        assert left == 1
+        assert cell[0, 0] <= after <= cell[0, 1]
+        assert cell[0, 2] <= d_after + RADIUS * after <= cell[0, 3]
 
 
 def test_a_sticking_contact_stays_in_its_cell_where_the_finger_moves_along_the_edge():

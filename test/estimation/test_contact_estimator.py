@@ -49,6 +49,42 @@ def random_block(seed, mu_c):
     return paper_block(theta, d, c, mu_c)
 
 
+def shares_inside(tilt, told, mu_c, seeds, steps):
+    """Push the block on its corners above its support: share of periods whose interval has d."""
+    shares = []
+    prior = Prior((-0.025, 0.025), 0.02375, 0.085 * 0.02375, tilt=told)
+    slider = Slider.on(
+        Outline.rectangle(0.05, 0.0475),
+        Support.corners(Outline.rectangle(0.05, 0.0475)),
+        exact=True,
+        tilt=tilt,
+    )
+    for seed in range(seeds):
+        rng = np.random.default_rng(seed)
+        start = rng.uniform(-0.4, 0.4), rng.uniform(-0.018, 0.018)
+        rows, truth = run(RigConfig(slider, mu_c, *start, tip_turns=False), steps, seed)
+        estimates = follow(ContactEstimator(prior, NOISE, radius_sigma=0.085 * 0.0135), rows)
+        inside = [
+            one.d.lower <= d <= one.d.upper and one.d.least <= d <= one.d.most
+            for one, d in zip(estimates, truth, strict=True)
+        ]
+        shares.append(np.mean(inside))
+    return np.array(shares)
+
+
+@pytest.mark.parametrize('tilt', [0.0, 0.0048, 0.008])
+def test_a_slipping_contact_above_the_support_is_held_by_the_interval(tilt):
+    # mu_s = 0.3 at 16 mm, and the ends of what is stated.
+    shares = shares_inside(tilt, 0.008, 0.1, 6, 250)
+
+    assert shares.mean() > 0.93
+    assert shares.min() > 0.8
+
+
+def test_a_push_above_the_support_has_to_be_told():
+    assert shares_inside(0.0048, 0.0, 0.1, 6, 250).mean() < 0.85
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(('told', 'least', 'most'), [(True, 34, 40), (False, 0, 20)])
 def test_turning_of_the_disk_has_to_be_told(told, least, most):

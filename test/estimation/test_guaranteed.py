@@ -60,6 +60,20 @@ def test_the_truth_is_never_outside_and_a_sticking_contact_is_found(support, tur
         assert most - least < 0.02
 
 
+@pytest.mark.parametrize('mu_c', [0.0, 0.1, 0.5, math.inf])
+def test_the_truth_is_never_outside_while_the_push_is_no_higher_than_stated(mu_c):
+    prior = Prior((-0.025, 0.025), HALF, mu_c=(mu_c, mu_c), tilt=0.005)
+    bounds = ModelBounds(math.radians(0.5))
+    for seed in range(4):
+        support = Support.corners(OUTLINE)
+        slider = Slider.on(OUTLINE, support, exact=True, tilt=0.005 * (1.0 - seed / 3.0))
+        found, d = follow(slider, mu_c, prior, bounds, seed, 80)
+
+        (least, most), _, _ = found.ranges()
+        assert least <= d <= most
+        assert not found.empty
+
+
 @pytest.mark.parametrize('turning', [0.0, -13.0])
 @pytest.mark.parametrize('mu_c', [0.0, 0.2, 0.6])
 def test_the_truth_is_never_outside_when_it_may_slip(mu_c, turning):

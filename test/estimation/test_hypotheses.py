@@ -29,9 +29,24 @@ MOMENTS = np.array(ROUND)
 
 
 def advanced(
-    theta, d, c_squared, alpha, l, r, growth, shape, moments, v_x, v_y, duration, curved, spin=0.0
+    theta,
+    d,
+    c_squared,
+    alpha,
+    l,
+    r,
+    growth,
+    shape,
+    moments,
+    v_x,
+    v_y,
+    duration,
+    curved,
+    spin=0.0,
+    tilt=0.0,
 ):
-    pressure, once = Pressure(c_squared, growth, shape, moments), Push(v_x, v_y, duration, spin)
+    pressure = Pressure(c_squared, growth, shape, moments, tilt)
+    once = Push(v_x, v_y, duration, spin)
     return advance(theta, d, alpha, l, r, pressure, once, curved)
 
 
@@ -61,14 +76,37 @@ def test_a_push_is_that_of_the_mechanics(mu_c, spin):
         assert found[1] == pytest.approx(expected[1], rel=0, abs=2e-6)
 
 
+@pytest.mark.parametrize('mu_c', [0.0, 0.2, 1.0, math.inf])
+def test_a_push_above_the_support_turns_the_object_about_the_shifted_centre(mu_c):
+    rng = np.random.default_rng(1)
+    moved = 0.0
+    for _ in range(20):
+        theta, d = rng.uniform(-0.4, 0.4), rng.uniform(-0.015, 0.015)
+        c, v_x, tilt = rng.uniform(0.01, 0.036), rng.uniform(-0.004, 0.004), 0.006
+        at_height, at_ground = (
+            advanced(
+                *(theta, d, c * c, math.atan(mu_c), HALF, RADIUS, 0.0, 0.0, MOMENTS),
+                *(v_x, 0.005, 0.1, False),
+                tilt=height,
+            )
+            for height in (tilt, 0.0)
+        )
+
+        expected = pushed_block.pushed_above(tilt, theta, d, c, mu_c, v_x)
+        assert at_height[0] == pytest.approx(expected[0], rel=0, abs=1e-4)
+        assert at_height[1] == pytest.approx(expected[1], rel=0, abs=3e-6)
+        moved = max(moved, abs(at_height[1] - at_ground[1]))
+    assert moved > 1e-5
+
+
 def one(mean, deviations):
     return np.array([mean]), np.diag(np.square(deviations))[np.newaxis].copy()
 
 
 def test_mean_and_covariance_are_those_of_many_pushed_objects():
     rng = np.random.default_rng(2)
-    middle = (0.1, 0.006, LOG, math.atan(0.3), HALF, RADIUS, 1.0, 0.5)
-    deviations = (0.01, 0.0005, 0.03, 0.05, 0.0003, 0.0005, 0.5, 0.3)
+    middle = (0.1, 0.006, LOG, math.atan(0.3), HALF, RADIUS, 1.0, 0.5, 0.004)
+    deviations = (0.01, 0.0005, 0.03, 0.05, 0.0003, 0.0005, 0.5, 0.3, 0.001)
     means, covariances = one(middle, deviations)
 
     moments = np.array([2.0, 0.0, 0.5])
@@ -76,9 +114,10 @@ def test_mean_and_covariance_are_those_of_many_pushed_objects():
 
     samples = rng.normal(middle, deviations, (4000, UNKNOWNS))
     for row in samples:
-        theta, d, log_c, *others = row
+        theta, d, log_c, *others, tilt = row
         row[[THETA, D]] = advanced(
-            *(theta, d, math.exp(2.0 * log_c), *others, moments, 0.001, 0.005, 0.1), False
+            *(theta, d, math.exp(2.0 * log_c), *others, moments, 0.001, 0.005, 0.1, False),
+            tilt=tilt,
         )[:2]
     scale = samples.std(axis=0)
     assert (means[0] - samples.mean(axis=0)) / scale == pytest.approx(0.0, rel=0, abs=0.06)
@@ -93,7 +132,7 @@ def still():
 
 def test_what_is_known_for_certain_stays_certain():
     means, covariances = one(
-        (0.2, -0.006, LOG, math.pi / 2.0, HALF, RADIUS, 0.0, 0.0), (0.0,) * UNKNOWNS
+        (0.2, -0.006, LOG, math.pi / 2.0, HALF, RADIUS, 0.0, 0.0, 0.0), (0.0,) * UNKNOWNS
     )
 
     pushed(means, covariances, still(), MOMENTS, 0.0, 0.005, 0.1, 0.0, 0.0, 0.0, False)
@@ -103,7 +142,7 @@ def test_what_is_known_for_certain_stays_certain():
 
 
 def test_scatter_adds_what_it_says():
-    certain = (0.2, -0.006, LOG, math.pi / 2.0, HALF, RADIUS, 0.0, 0.0)
+    certain = (0.2, -0.006, LOG, math.pi / 2.0, HALF, RADIUS, 0.0, 0.0, 0.0)
     means, covariances = one(certain, (0.0,) * UNKNOWNS)
 
     pushed(means, covariances, still(), MOMENTS, 0.0, 0.005, 0.1, 0.1, 0.0, 0.01, False)
@@ -121,7 +160,7 @@ def test_scatter_adds_what_it_says():
 def test_scatter_over_a_way_does_not_depend_on_how_often_one_looks():
     spreads = []
     for count in (10, 40):
-        certain = (0.2, -0.006, LOG, math.pi / 2.0, HALF, RADIUS, 0.0, 0.0)
+        certain = (0.2, -0.006, LOG, math.pi / 2.0, HALF, RADIUS, 0.0, 0.0, 0.0)
         means, covariances = one(certain, (0.0,) * UNKNOWNS)
         motions = still()
         for _ in range(count):
@@ -140,7 +179,7 @@ def test_slip_goes_with_a_turn_that_scatters(mu_c, d, v_x):
         for c in (0.0187, 0.0188)
     ]
     assert ends[0][2] != 0.0
-    means, covariances = one((0.2, d, LOG, alpha, HALF, RADIUS, 0.0, 0.0), (0.0,) * UNKNOWNS)
+    means, covariances = one((0.2, d, LOG, alpha, HALF, RADIUS, 0.0, 0.0, 0.0), (0.0,) * UNKNOWNS)
 
     pushed(means, covariances, still(), MOMENTS, v_x, 0.005, 0.02, 0.1, 0.0, 0.0, False)
 
@@ -150,7 +189,7 @@ def test_slip_goes_with_a_turn_that_scatters(mu_c, d, v_x):
 
 
 def test_drift_grows_with_the_change_of_motion():
-    certain = (0.2, -0.006, LOG, math.pi / 2.0, HALF, RADIUS, 0.0, 0.0)
+    certain = (0.2, -0.006, LOG, math.pi / 2.0, HALF, RADIUS, 0.0, 0.0, 0.0)
     means, covariances = one(certain, (0.0,) * UNKNOWNS)
     motions = still()
     push_once = 0.0, 0.005, 0.1, 0.0, 0.0, 0.01, False
@@ -170,7 +209,7 @@ def test_drift_grows_with_the_change_of_motion():
 
 def test_skew_moves_a_slipping_contact_of_an_object_that_turns():
     means, covariances = one(
-        (0.0, 0.01, LOG, math.atan(0.2), HALF, RADIUS, 0.0, 0.0), (0.0,) * UNKNOWNS
+        (0.0, 0.01, LOG, math.atan(0.2), HALF, RADIUS, 0.0, 0.0, 0.0), (0.0,) * UNKNOWNS
     )
 
     pushed(means, covariances, still(), MOMENTS, -0.004, 0.005, 0.1, 0.0, 0.1, 0.0, False)
@@ -209,8 +248,8 @@ def test_a_reading_is_weighed_as_bayes_does():
 
 def test_an_outlier_moves_nothing():
     means, covariances = one(
-        (0.1, 0.0, 4e-4, 1.0, HALF, RADIUS, 0.0, 0.0),
-        (0.003, 0.001, 1e-5, 0.1, 0.0, 0.0, 0.0, 0.0),
+        (0.1, 0.0, 4e-4, 1.0, HALF, RADIUS, 0.0, 0.0, 0.0),
+        (0.003, 0.001, 1e-5, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0),
     )
     before = means.copy(), covariances.copy()
 

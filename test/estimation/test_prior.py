@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from tactile_push.estimation.hypotheses import ALPHA, GROWTH, LOG_C, SHAPE, D, L, R
+from tactile_push.estimation.hypotheses import ALPHA, GROWTH, LOG_C, SHAPE, TILT, D, L, R
 from tactile_push.estimation.prior import NONE, SOME, STICKS, Prior, friction, spread
 
 BLOCK = Prior((-0.025, 0.025), 0.02375)
@@ -24,6 +24,8 @@ SURE = (0.0135, 0.0), (1.5, 0.0), (0.5, 0.0)
         {'c': (0.0, 0.01)},
         {'mu_c': (0.5, 0.1)},
         {'mu_c': (-0.1, 1.0)},
+        {'tilt': -1e-3},
+        {'tilt': math.inf},
     ],
 )
 def test_priors_that_are_none_are_refused(changes):
@@ -53,6 +55,19 @@ def test_hypotheses_are_even_over_the_edge_and_over_c():
         assert weights[part].sum() == pytest.approx((high - low) / 0.031)
         deviation = np.log(high / low) / math.sqrt(12.0)  # of an even density
         assert covariances[part, LOG_C, LOG_C] == pytest.approx(deviation**2)
+
+
+def test_hypotheses_cover_the_tilts_up_to_the_greatest():
+    means, covariances, _, _ = spread(Prior((-0.025, 0.025), 0.02375, tilt=0.006), *SURE)
+    # Both ends are within two standard deviations of the middle.
+    deviations = np.sqrt(covariances[:, TILT, TILT])
+    assert means[:, TILT] == pytest.approx(0.003)
+    assert (2.0 * deviations > 0.003).all()
+    assert (deviations < 0.003).all()
+
+    means, covariances, _, _ = spread(BLOCK, *SURE)
+    assert not means[:, TILT].any()
+    assert not covariances[:, TILT].any()
 
 
 def test_hypotheses_of_some_friction_cover_its_angles_evenly():

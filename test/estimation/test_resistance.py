@@ -74,8 +74,9 @@ def test_without_growth_and_shape_it_is_an_ellipsoid():
     assert resistance(0.3, 1.0, 40.0, pressure) == 2e-4
 
 
+@pytest.mark.parametrize('tilt', [0.0, 0.004])
 @pytest.mark.parametrize('mu_c', [0.0, 0.3, math.inf])
-def test_motion_and_resistance_agree(mu_c):
+def test_motion_and_resistance_agree(mu_c, tilt):
     rng = np.random.default_rng(3)
     moments = np.array(edges_of(PLATE)[0].moments)
     for _ in range(100):
@@ -83,14 +84,18 @@ def test_motion_and_resistance_agree(mu_c):
         c_squared, growth, shape = rng.uniform(0.01, 0.03) ** 2, rng.uniform(0.0, 3.0), 0.3
         cone = cone_of_angle(math.atan(mu_c))
 
-        pressure = Pressure(c_squared, growth, shape, moments)
-        now, omega, v_slip = settled(v_t, 0.005, d, l, *cone, pressure)
+        pressure = Pressure(c_squared, growth, shape, moments, tilt)
+        now, d_s, l_s, omega, v_slip = settled(v_t, 0.005, d, l, *cone, pressure)
 
-        v_ct, v_cn = v_t - v_slip - l * omega, 0.005 - d * omega  # of the centre of mass
+        v_ct, v_cn = v_t - v_slip - l_s * omega, 0.005 - d_s * omega  # of the centre of friction
         found = resistance(v_ct, v_cn, omega, pressure)
         assert now == pytest.approx(found, rel=0.1)
+        # It is shifted along the force, by tilt |f| / f_max of the ellipsoid.
+        speed = math.hypot(v_ct, v_cn)
+        shift = tilt * np.array([v_ct, v_cn]) / math.hypot(speed, math.sqrt(now) * omega)
+        assert (d - d_s, l_s - l) == pytest.approx(shift, rel=0, abs=0.03 * tilt)
         if v_slip == 0.0:
-            expected = sticking_twist(v_t, 0.005, d, -l, math.sqrt(now))[2]
+            expected = sticking_twist(v_t, 0.005, d_s, -l_s, math.sqrt(now))[2]
         else:  # the force is that of the cone's edge, and the centre of mass goes with it
             side = math.copysign(mu_c, v_slip)
             assert v_ct == pytest.approx(side * v_cn, abs=1e-9)
@@ -98,11 +103,17 @@ def test_motion_and_resistance_agree(mu_c):
         assert omega == pytest.approx(expected, rel=1e-6, abs=1e-9)
 
 
-def test_a_block_under_uniform_pressure_is_followed_through_a_long_slip():
+@pytest.mark.parametrize(
+    ('tilt', 'most_degrees', 'most_millimetres', 'untold'),
+    [(0.0, 0.15, 0.1, 0.0), (0.002, 0.15, 0.2, 0.5), (0.004, 0.4, 0.4, 1.0)],
+)
+def test_a_block_under_uniform_pressure_is_followed_through_a_long_slip(
+    tilt, most_degrees, most_millimetres, untold
+):
     # Without friction the contact slips by 15 mm along the edge while the block turns by 18
     # degrees. No ellipsoid's c comes near.
     outline = Outline.polygon(BLOCK)
-    slider = Slider.on(outline, Support.uniform(outline, 100), exact=True)
+    slider = Slider.on(outline, Support.uniform(outline, 100), exact=True, tilt=tilt)
     start, v_x = (0.18, 0.0199), -0.0035
     rig = Rig(RigConfig(slider, 0.0, *start, radius=RADIUS, tip_turns=False))
     truth = [start]
@@ -111,21 +122,23 @@ def test_a_block_under_uniform_pressure_is_followed_through_a_long_slip():
         truth.append((rig.theta, rig.d))
     truth = np.array(truth)
 
-    def worst(c, growth):
+    def worst(c, growth, tilt):
         """Give the largest errors of theta [degrees] and d [mm]."""
         now, rows = start, []
         for _ in truth:
             rows.append(now)
             for _ in range(4):
                 now = advance(
-                    *(*now, 0.0, 0.02375, RADIUS, Pressure(c * c, growth, 0.0, MOMENTS)),
+                    *(*now, 0.0, 0.02375, RADIUS, Pressure(c * c, growth, 0.0, MOMENTS, tilt)),
                     *(Push(v_x, 0.005, 0.025), False),
                 )[:2]
         errors = np.abs(np.array(rows) - truth).max(axis=0)
         return math.degrees(errors[0]), 1e3 * errors[1]
 
     still = math.sqrt(measured(BLOCK, (0.0, 1.0), 1e-3))
-    of_theta, of_d = worst(still, 1.9)
-    assert of_theta < 0.15
-    assert of_d < 0.1
-    assert min(worst(c, 0.0)[0] for c in np.linspace(0.01, 0.025, 31)) > 0.5
+    of_theta, of_d = worst(still, 1.9, tilt)
+    assert of_theta < most_degrees
+    assert of_d < most_millimetres
+    assert min(worst(c, 0.0, tilt)[0] for c in np.linspace(0.01, 0.025, 31)) > 0.5
+    # The shift moves the contact by so much for every radian.
+    assert worst(still, 1.9, 0.0)[1] > untold
