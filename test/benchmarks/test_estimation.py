@@ -117,3 +117,63 @@ def test_figures_count_what_outcomes_say():
     }
     assert result['contradictions'] == {'no': 1}
     assert result['milliseconds_a_tick']['mean'] == pytest.approx(1.0)
+
+
+def test_a_short_run_on_mujoco_prints_and_writes(script, monkeypatch, tmp_path, capsys):
+    pytest.importorskip('mujoco', reason="pip install 'tactile_push[mujoco]'")
+    from estimating import on_mujoco
+
+    chosen = (
+        on_mujoco.Case('mass off centre', centre=on_mujoco.BESIDE, steps=5),
+        on_mujoco.Case('disk', vertices=(), steps=5),
+    )
+    monkeypatch.setattr(on_mujoco, 'CASES', chosen)
+    monkeypatch.setattr(on_mujoco, 'LATE', 4)
+    file = tmp_path / 'out.json'
+    monkeypatch.setattr(
+        sys,
+        'argv',
+        ['estimation', '--physics', 'mujoco', '--starts', '0', '--json', str(file)],
+    )
+    script.main()
+
+    results = json.loads(file.read_text())
+    assert list(results) == ['mass off centre', 'disk']
+    for result in results.values():
+        assert (result['runs'], result['periods']) == (1, 5)
+        assert result['guaranteed'] == 1.0
+        assert result['milliseconds_a_tick'] > 0.0
+    assert results['disk']['coverage'] == 1.0
+    assert 'known while wrong' in capsys.readouterr().out
+
+
+def test_figures_on_mujoco_count_what_was_told():
+    pytest.importorskip('mujoco', reason="pip install 'tactile_push[mujoco]'")
+    from estimating import on_mujoco
+
+    # True d, 95 % interval and bounds [m]: right, wrong and narrow, wrong and wide.
+    right = (399, 0.001, 0.0, 0.003, -0.01, 0.01)
+    narrow = (400, 0.005, 0.0, 0.001, -0.01, 0.01)
+    wide = (401, 0.02, 0.0, 0.004, -0.01, 0.01)
+    told = on_mujoco.Told('block', [right, narrow, wide], 5, 2, {'no'}, 0.01, 0.05)
+    figures = on_mujoco.figures([told])
+
+    assert figures['coverage'] == pytest.approx(1 / 3)
+    assert figures['known_while_wrong'] == pytest.approx(1 / 3)
+    assert figures['guaranteed'] == pytest.approx(2 / 3)
+    assert (figures['width_mm'], figures['d_mm']) == pytest.approx((1.0, 5.0))
+    assert (figures['runs_with_contradiction'], figures['silent']) == (1, 0.4)
+    assert figures['milliseconds_a_tick'] == pytest.approx(2.0)
+    assert figures['rig_share_of_a_core'] == pytest.approx(0.1)
+
+
+def test_feet_under_an_object_bear_its_weight_wherever_that_is():
+    pytest.importorskip('mujoco', reason="pip install 'tactile_push[mujoco]'")
+    from estimating import on_mujoco
+
+    case = on_mujoco.Case('mass off centre', centre=on_mujoco.BESIDE)
+    support = case.rig().physics.support
+    assert support.centre == pytest.approx((0.0, 0.0), abs=1e-12)
+    assert support.loads.min() > 0.0
+    corners = np.reshape(case.told().vertices, (-1, 2))
+    assert corners.mean(axis=0) == pytest.approx([-0.004, 0.002])

@@ -33,8 +33,8 @@ FIGURE_8 = math.radians(20.0), -0.006
 STEP = 0.1
 
 
-def config(mu_c=0.5, outline=BLOCK, support=CORNERS, start=FIGURE_8):
-    return RigConfig(Slider.on(outline, support, exact=True), mu_c, *start)
+def config(mu_c=0.5, outline=BLOCK, support=CORNERS, start=FIGURE_8, tilt=0.0):
+    return RigConfig(Slider.on(outline, support, exact=True, tilt=tilt), mu_c, *start)
 
 
 def pushed(rig, steps, v_x=0.0):
@@ -53,21 +53,22 @@ def controlled(rig, steps):
     return np.array(history)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
-    ('outline', 'support', 'mu_c'),
+    ('outline', 'support', 'mu_c', 'height'),
     [
-        (BLOCK, CORNERS, 0.1),
-        (BLOCK, Support.uniform(BLOCK, 16), math.inf),
-        (Outline.circle(0.0285), Support.rim(Outline.circle(0.0285), 16), 0.3),
+        (BLOCK, CORNERS, 0.1, 0.0),
+        (BLOCK, Support.uniform(BLOCK, 16), math.inf, 0.016),
+        (Outline.circle(0.0285), Support.rim(Outline.circle(0.0285), 16), 0.3, 0.016),
     ],
-    ids=['corners, slipping', 'uniform, sticking', 'disk'],
+    ids=['corners, slipping', 'uniform, sticking, above the belt', 'disk, above the belt'],
 )
-def test_without_pitch_and_turning_it_moves_as_on_the_exact_surface(outline, support, mu_c):
+def test_with_a_straight_tip_it_moves_as_on_the_exact_surface(outline, support, mu_c, height):
     start = FIGURE_8[0], None if len(outline.pieces) == 1 else FIGURE_8[1]
-    rig = config(mu_c, outline, support, start)
-    theta, d = np.abs(
-        controlled(MujocoRig(rig, replace(PLANE, support=support)), 400) - controlled(Rig(rig), 400)
-    ).T
+    rig = config(mu_c, outline, support, start, tilt=0.3 * height)
+    physics = replace(PLANE, support=support, push_height=height)
+    apart = controlled(MujocoRig(rig, physics), 400) - controlled(Rig(rig), 400)
+    theta, d = np.abs(apart).T
     assert theta.max() < 0.3  # [deg]
     assert d.max() < 0.3  # [mm]
 
