@@ -69,8 +69,8 @@ def difference(case: Case, settings: dict[str, float]) -> tuple[float, float, fl
     """Give the largest differences of theta [deg] and d [mm], and the share of a core."""
     slider = Slider.on(case.outline, case.support, exact=True, tilt=MU_S * case.height)
     d = paper.D_INITIAL if case.outline is BLOCK else 0.0
-    config = RigConfig(slider, case.mu_c, paper.THETA_INITIAL, d)
-    physics = MujocoPhysics(case.support, MU_S, MASS, HEIGHT, case.height, None, tip_turns=False)
+    config = RigConfig(slider, case.mu_c, paper.THETA_INITIAL, d, tip_turns=False)
+    physics = MujocoPhysics(case.support, MU_S, MASS, HEIGHT, case.height)
     own, own_law = Rig(config), PushLaw(paper.KP, paper.KD, paper.THETA_DESIRED)
     theta = d = spent = 0.0
     with patched(settings):

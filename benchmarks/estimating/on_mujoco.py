@@ -68,10 +68,10 @@ class Case:
             support = Support.uniform(outline, FEET)
         d = self.d if self.vertices else 0.0
         slider = Slider(outline, support.c)
-        config = RigConfig(slider, self.mu_c, self.theta, d, BELT_SPEED, RADIUS)
-        physics = MujocoPhysics(
-            support, RIG.mu_s, RIG.mass, RIG.object_height, self.push_height, None, self.tip_turns
+        config = RigConfig(
+            *(slider, self.mu_c, self.theta, d, BELT_SPEED, RADIUS), tip_turns=self.tip_turns
         )
+        physics = MujocoPhysics(support, RIG.mu_s, RIG.mass, RIG.object_height, self.push_height)
         faults = Faults(servo=Servo(self.lag), sensor=Sensor(noise=self.noise))
         return MujocoRig(config, physics, faults)
 

@@ -59,8 +59,7 @@ def mujoco_config(p: MujocoPlantParameters) -> tuple['RigConfig', 'MujocoPhysics
             spread = Support.rim if p.support == RIM else Support.uniform
             support = spread(outline, FEET)
         return config, MujocoPhysics(
-            *(support, p.mu_s, p.mass, p.object_height, p.push_height, inertia),
-            tip_turns=p.tip_turns,
+            support, p.mu_s, p.mass, p.object_height, p.push_height, inertia
         )
     except ValueError as error:
         named = re.sub('^outline:', 'support:', str(error))

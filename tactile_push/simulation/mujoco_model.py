@@ -80,7 +80,6 @@ class MujocoPhysics:
     #: height of the tip's centre above the belt [m]; at 0 the push does not tilt the object
     push_height: float
     inertia: float | None = None  #: about the upright axis [kg m^2]; None for an even prism
-    tip_turns: bool = True  #: whether the tip turns with the last link; else a wrist holds it
 
     def __post_init__(self) -> None:
         for name in ('mu_s', 'mass', 'object_height'):
@@ -141,7 +140,7 @@ def model_xml(config: RigConfig, physics: MujocoPhysics) -> str:
         f'stiffness="{LIFT_STIFFNESS}" damping="{2.0 * math.sqrt(LIFT_INERTIA * LIFT_STIFFNESS)}"/>'
     )
     wrist = wrist_servo = ''
-    if not physics.tip_turns:
+    if not config.tip_turns:
         wrist = f'<joint name="wrist" {hinge}/>'
         wrist_servo = f'<velocity joint="wrist" kv="{SERVO_GAIN}"/>'
     return f"""

@@ -10,7 +10,18 @@ import math
 import mujoco
 import numpy as np
 
-from tactile_push.mechanics import FREE, MODES, SLIP_LEFT, SLIP_RIGHT, STICK, Pose, clearance
+from tactile_push.interface import POINTS
+from tactile_push.mechanics import (
+    CONTACT,
+    FREE,
+    MODES,
+    POLE,
+    SLIP_LEFT,
+    SLIP_RIGHT,
+    STICK,
+    Pose,
+    clearance,
+)
 from tactile_push.mechanics.compiled import Array
 from tactile_push.simulation.faults import NO_FAULTS, Faults
 from tactile_push.simulation.mujoco_model import (
@@ -40,7 +51,7 @@ REACH = 1e-4  # the finger stays so far from the end of its reach [m], where joi
 SLOW = 0.01  # share of the belt's speed that counts as rest; a contact that sticks creeps slower
 
 # Where things stand in MuJoCo's qpos, and the links' rates in its qvel. A free body has 7 and 6.
-BASE, LINKS, WRIST = 7, slice(8, 10), 10
+BASE, LINKS, WRIST, LINKS_AND_WRIST = 7, slice(8, 10), 10, slice(8, 11)
 BASE_RATE, LINK_RATES = 6, slice(7, 9)
 
 
@@ -93,7 +104,7 @@ class MujocoRig:
         q[3], q[6] = math.cos(pose.angle / 2.0), math.sin(pose.angle / 2.0)
         q[BASE] = -RETREAT
         q[LINKS] = finger.inverse(self._home.x, self._home.y)
-        if not self.physics.tip_turns:
+        if not self.config.tip_turns:
             q[WRIST] = math.pi / 2.0 - pole_angle(finger.mount_angle, q[LINKS])
         self._simulate(0.0, SETTLING, belt_running=False)
         q[BASE] = FIRST_DENT / math.cos(self.config.theta)
@@ -105,19 +116,19 @@ class MujocoRig:
     @property
     def finger_x(self) -> float:
         """Centre of the finger's disk on the belt, from its start [m]."""
-        return self.finger_pose.x - self._home.x
+        return self._links.x - self._home.x
 
     @property
     def finger_y(self) -> float:
         """The same along the belt, where the finger moves at +v_y [m]."""
-        return float(self._data.qpos[BASE]) + self.finger_pose.y - self._home.y
+        return float(self._data.qpos[BASE]) + self._links.y - self._home.y
 
     @property
     def v_x(self) -> float:
-        """The finger's velocity across the belt [m/s]."""
-        at, b = self.finger_pose, self.config.finger.distal_length
+        """Velocity across the belt of the point of the finger that follows commands [m/s]."""
         proximal, distal = self._data.qvel[LINK_RATES].tolist()
-        return -at.y * proximal - b * math.sin(at.psi) * distal
+        (_, y), (_, distal_y) = self._levers
+        return -y * proximal - distal_y * distal
 
     @property
     def object_pose(self) -> Pose:
@@ -150,18 +161,35 @@ class MujocoRig:
     @property
     def joints(self) -> tuple[float, ...]:
         """Angles of the finger's two moving joints and, if it has one, of the wrist [rad]."""
-        links = self._data.qpos[LINKS].tolist()
-        return *links, *([] if self.physics.tip_turns else [float(self._data.qpos[WRIST])])
-
-    @property
-    def finger_pose(self) -> FingerPose:
-        """Pose of the last link in `finger_base`."""
-        return self.config.finger.forward(*self.joints[:2])
+        return tuple(self._data.qpos[LINKS if self.config.tip_turns else LINKS_AND_WRIST].tolist())
 
     @property
     def psi(self) -> float:
         """Angle of the finger tip's pole in `finger_base` [rad]."""
         return pole_angle(self.config.finger.mount_angle, self.joints)
+
+    @property
+    def finger_pose(self) -> FingerPose:
+        """Pose of the finger tip in `finger_base`."""
+        links = self._links
+        return FingerPose(links.x, links.y, self.psi)
+
+    @property
+    def _links(self) -> FingerPose:
+        """Where the links alone, without a wrist, bring and point the disk."""
+        return self.config.finger.forward(*self._data.qpos[LINKS].tolist())
+
+    @property
+    def _levers(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """What the point that follows commands has from each joint, x and y as its rates [m]."""
+        links, b = self._links, self.config.finger.distal_length
+        x, y = b * math.cos(links.psi), b * math.sin(links.psi)
+        beyond = 0.0  # the centre of a tip that turns
+        if self.config.tip_turns and self.config.commanded_point == POINTS[POLE]:
+            beyond = self.config.radius * math.sin(links.psi)
+        elif self.config.tip_turns and self.config.commanded_point == POINTS[CONTACT]:
+            beyond = self.config.radius * math.cos(self.theta)
+        return (links.x, links.y + beyond), (x, y + beyond)
 
     @property
     def object_in_finger_disk(self) -> Pose:
@@ -229,7 +257,7 @@ class MujocoRig:
 
     def _within_limits(self, v_x: float, step: float) -> float:
         """Return the velocity, or 0 where the finger can go no further."""
-        x = self.finger_pose.x
+        x = self._links.x
         inside = self.faults.workspace.time_inside(x, v_x, step) == step
         try:
             self.config.finger.inverse(x + math.copysign(REACH, v_x), self._home.y)
@@ -242,21 +270,14 @@ class MujocoRig:
         return 0.0
 
     def _joint_velocities(self, v_x: float) -> tuple[float, ...]:
-        """Return what moves the commanded point across the belt, and holds the disk along it."""
-        at, b = self.finger_pose, self.config.finger.distal_length
-        v_y = HOLD * (self._home.y - at.y)
-        # The centre's lever about the second joint; about the first it is (at.x, at.y).
-        x, y = b * math.cos(at.psi), b * math.sin(at.psi)
-        det = y * at.x - at.y * x
-        if self.physics.tip_turns:
-            # A point r (cos a, sin a) from the centre goes by r psi' sin(a) less across the belt.
-            sines = {'centre': 0.0, 'pole': math.sin(at.psi), 'contact': math.cos(self.theta)}
-            lever = self.config.radius * sines[self.config.commanded_point]
-            v_x = (v_x + lever * v_y * (y - at.y) / det) / (1.0 - lever * (x - at.x) / det)
-        links = (v_x * x + v_y * y) / det, -(v_x * at.x + v_y * at.y) / det
-        if self.physics.tip_turns:
+        """Return what moves the point across the belt, and holds the disk's centre along it."""
+        (x, y), (distal_x, distal_y) = self._levers
+        v_y = HOLD * (self._home.y - self._links.y)
+        det = distal_y * x - y * distal_x
+        links = (v_x * distal_x + v_y * distal_y) / det, -(v_x * x + v_y * y) / det
+        if self.config.tip_turns:
             return links
-        return *links, HOLD * (math.pi / 2.0 - at.psi - float(self._data.qpos[WRIST])) - sum(links)
+        return *links, HOLD * (math.pi / 2.0 - self.psi) - sum(links)
 
     def _look(self) -> None:
         """Take the contact from MuJoCo's list."""

@@ -26,15 +26,16 @@ from tactile_push.simulation.mujoco_rig import MujocoRig
 
 BLOCK = Outline.rectangle(0.05, 0.0475)
 CORNERS = Support.corners(BLOCK)
-# A tip held straight by a wrist, and a push that does not tilt the object.
-PLANE = MujocoPhysics(CORNERS, 0.3, 1.0, 0.05, 0.0, tip_turns=False)
-TURNING = replace(PLANE, tip_turns=True)
+# A push that does not tilt the object.
+PHYSICS = MujocoPhysics(CORNERS, 0.3, 1.0, 0.05, 0.0)
 FIGURE_8 = math.radians(20.0), -0.006
 STEP = 0.1
 
 
-def config(mu_c=0.5, outline=BLOCK, support=CORNERS, start=FIGURE_8, tilt=0.0):
-    return RigConfig(Slider.on(outline, support, exact=True, tilt=tilt), mu_c, *start)
+def config(mu_c=0.5, outline=BLOCK, support=CORNERS, start=FIGURE_8, tilt=0.0, **tip):
+    """Return a rig whose tip is held straight by a wrist, unless something else is said."""
+    slider = Slider.on(outline, support, exact=True, tilt=tilt)
+    return RigConfig(slider, mu_c, *start, **{'tip_turns': False, **tip})
 
 
 def pushed(rig, steps, v_x=0.0):
@@ -66,7 +67,7 @@ def controlled(rig, steps):
 def test_with_a_straight_tip_it_moves_as_on_the_exact_surface(outline, support, mu_c, height):
     start = FIGURE_8[0], None if len(outline.pieces) == 1 else FIGURE_8[1]
     rig = config(mu_c, outline, support, start, tilt=0.3 * height)
-    physics = replace(PLANE, support=support, push_height=height)
+    physics = replace(PHYSICS, support=support, push_height=height)
     apart = controlled(MujocoRig(rig, physics), 400) - controlled(Rig(rig), 400)
     theta, d = np.abs(apart).T
     assert theta.max() < 0.3  # [deg]
@@ -74,20 +75,20 @@ def test_with_a_straight_tip_it_moves_as_on_the_exact_surface(outline, support, 
 
 
 def test_a_contact_that_sticks_to_a_turning_tip_rolls_by_the_difference_of_the_turns():
-    rig = MujocoRig(config(mu_c=2.0), TURNING)
-    rolled = [rig.d + 0.0135 * (rig.theta - rig.finger_pose.psi)]
-    psi = rig.finger_pose.psi
+    rig = MujocoRig(config(mu_c=2.0, tip_turns=True), PHYSICS)
+    rolled = [rig.d + 0.0135 * (rig.theta - rig.psi)]
+    psi = rig.psi
     for _ in range(40):
         rig.step(0.003, STEP)
         assert rig.mode_name == 'stick'
-        rolled.append(rig.d + 0.0135 * (rig.theta - rig.finger_pose.psi))
-    assert abs(rig.finger_pose.psi - psi) > 0.1
+        rolled.append(rig.d + 0.0135 * (rig.theta - rig.psi))
+    assert abs(rig.psi - psi) > 0.1
     # It creeps by 3 um/s at the most. The turn of the tip alone moves d by 2 mm.
     assert np.ptp(rolled) < 4e-5
 
 
 def test_a_push_above_the_belt_moves_the_centre_of_pressure_forward():
-    rig = pushed(MujocoRig(config(start=(0.0, 0.0)), replace(PLANE, push_height=0.016)), 10)
+    rig = pushed(MujocoRig(config(start=(0.0, 0.0)), replace(PHYSICS, push_height=0.016)), 10)
     data, model = rig._data, rig._model
     loads, places = [], []
     for contact in data.contact:
@@ -103,20 +104,45 @@ def test_a_push_above_the_belt_moves_the_centre_of_pressure_forward():
 
 
 def test_the_finger_goes_as_commanded_along_a_straight_line():
-    rig = MujocoRig(config(), TURNING)
+    rig = MujocoRig(config(tip_turns=True), PHYSICS)
     pushed(rig, 20, 0.004)
     assert rig.v_x == pytest.approx(0.004, rel=0.01)
     assert rig.finger_x == pytest.approx(0.008, rel=0.01)
     assert rig.finger_y == pytest.approx(2.0 * 0.005, rel=0.01)
     assert rig.phi == pytest.approx(math.atan2(0.005, 0.004), abs=0.01)
     # The joints are those of a finger that is there.
-    pose = rig.config.finger.forward(*rig.joints)
+    pose = rig.config.finger.forward(*rig.joints[:2])
     home = rig.config.finger.forward(math.pi - rig.config.finger.mount_angle, -math.pi / 2.0)
     assert (pose.x - home.x, pose.y - home.y) == pytest.approx((rig.finger_x, 0.0), abs=2e-5)
 
 
+@pytest.mark.parametrize('point', ['centre', 'pole', 'contact'])
+def test_the_commanded_point_is_the_one_that_follows(point):
+    rig = MujocoRig(config(tip_turns=True, commanded_point=point), PHYSICS)
+    pushed(rig, 5, 0.004)
+    before, way = rig.finger_pose, 0.0
+    for _ in range(100):
+        rig.step(0.004, 0.01)
+        now = rig.finger_pose
+        # Of the disk at the angle a, x moves with the centre less r sin(a) for each turn of it.
+        a = {'centre': 0.0, 'pole': now.psi, 'contact': rig.theta + math.pi / 2.0}[point]
+        way += now.x - before.x - 0.0135 * math.sin(a) * (now.psi - before.psi)
+        before = now
+    assert way == pytest.approx(0.004, rel=0.01)
+    assert rig.v_x == pytest.approx(0.004, rel=0.01)
+    assert rig.finger_pose.y == pytest.approx(0.08, abs=2e-5)
+
+
+def test_a_wrist_holds_the_tip_straight():
+    rig = pushed(MujocoRig(config(), PHYSICS), 20, 0.004)
+    assert len(rig.joints) == 3
+    assert rig.psi == pytest.approx(math.pi / 2.0, abs=1e-4)
+    assert rig.psi == pytest.approx(math.pi / 2.0 + sum(rig.joints), abs=1e-9)
+    assert len(MujocoRig(config(tip_turns=True), PHYSICS).joints) == 2
+
+
 def test_it_starts_where_the_package_s_own_rig_starts():
-    own, rig = Rig(config()), MujocoRig(config(), PLANE)
+    own, rig = Rig(config()), MujocoRig(config(), PHYSICS)
     assert rig.touching
     assert rig.theta == pytest.approx(own.theta, abs=1e-4)
     assert rig.d == pytest.approx(own.d, abs=1e-5)
@@ -129,7 +155,7 @@ def test_it_starts_where_the_package_s_own_rig_starts():
 
 
 def test_at_rest_nothing_moves():
-    rig = MujocoRig(config(), PLANE)
+    rig = MujocoRig(config(), PHYSICS)
     before = rig.object_pose
     for _ in range(10):
         rig.step(0.0, STEP, belt_running=False)
@@ -140,14 +166,14 @@ def test_at_rest_nothing_moves():
 
 def test_the_side_to_which_a_contact_slips():
     for v_x, mode in ((0.006, 'slip_right'), (-0.006, 'slip_left')):
-        rig = MujocoRig(config(mu_c=0.05, start=(0.0, 0.0)), PLANE)
+        rig = MujocoRig(config(mu_c=0.05, start=(0.0, 0.0)), PHYSICS)
         assert pushed(rig, 5, v_x).mode_name == mode
         own = Rig(rig.config)
         assert pushed(own, 5, v_x).mode_name == mode
 
 
 def test_a_finger_that_leaves_feels_nothing():
-    rig = MujocoRig(config(), PLANE)
+    rig = MujocoRig(config(), PHYSICS)
     pushed(rig, 5)
     rig.faults = Faults(belt=Belt(stopped=True))
     pushed(rig, 30, 0.01)
@@ -158,18 +184,18 @@ def test_a_finger_that_leaves_feels_nothing():
 
 
 def test_the_reading_has_the_force():
-    rig = pushed(MujocoRig(config(), PLANE), 10)
+    rig = pushed(MujocoRig(config(), PHYSICS), 10)
     assert rig.reading().normal_force == rig.normal_force > 1.0
 
 
 def test_the_belt_s_ripple_is_that_of_the_fault():
     belt = Belt(ripple=0.5, frequency=0.5)
-    rig = pushed(MujocoRig(config(), PLANE, Faults(belt=belt)), 10)
+    rig = pushed(MujocoRig(config(), PHYSICS, Faults(belt=belt)), 10)
     assert rig.finger_y == pytest.approx(belt.mean_speed(0.005, 0.0, 1.0), rel=0.01)
 
 
 def test_a_servo_with_a_delay_and_a_lag_follows_later():
-    rig = MujocoRig(config(), PLANE, Faults(servo=Servo(time_constant=0.2, delay=0.3)))
+    rig = MujocoRig(config(), PHYSICS, Faults(servo=Servo(time_constant=0.2, delay=0.3)))
     pushed(rig, 3, 0.004)
     assert rig.v_x == pytest.approx(0.0, abs=1e-5)
     pushed(rig, 4, 0.004)
@@ -177,7 +203,7 @@ def test_a_servo_with_a_delay_and_a_lag_follows_later():
 
 
 def test_it_stops_at_the_end_of_its_workspace():
-    rig = MujocoRig(config(), PLANE, Faults(workspace=Workspace(upper=-0.058)))
+    rig = MujocoRig(config(), PHYSICS, Faults(workspace=Workspace(upper=-0.058)))
     assert rig.finger_pose.x == pytest.approx(-0.06)
     pushed(rig, 10, 0.004)
     assert rig.at_workspace_limit
@@ -187,7 +213,7 @@ def test_it_stops_at_the_end_of_its_workspace():
 
 
 def test_it_stops_at_the_end_of_its_reach():
-    rig = MujocoRig(config(start=(0.0, 0.0)), PLANE)
+    rig = MujocoRig(config(start=(0.0, 0.0)), PHYSICS)
     pushed(rig, 100, 0.02)
     assert rig.at_workspace_limit
     reached = math.hypot(rig.finger_pose.x, rig.finger_pose.y)
@@ -197,7 +223,7 @@ def test_it_stops_at_the_end_of_its_reach():
 
 def test_uneven_friction_goes_with_the_place_on_the_edge():
     friction = UnevenFriction(ripple=0.5, length=0.004)
-    rig = MujocoRig(config(mu_c=0.2), PLANE, Faults(friction=friction))
+    rig = MujocoRig(config(mu_c=0.2), PHYSICS, Faults(friction=friction))
     rig.step(0.0, 0.02)
     left, right = (rig.contact_directions[side] for side in ('left', 'right'))
     alpha = (math.atan2(*left[::-1]) - math.atan2(*right[::-1])) / 2.0
@@ -207,4 +233,4 @@ def test_uneven_friction_goes_with_the_place_on_the_edge():
 def test_an_outline_of_arcs_is_refused():
     ellipse = Outline.ellipse(0.05, 0.03)
     with pytest.raises(ValueError, match='outline: expected a polygon or a circle'):
-        MujocoRig(config(outline=ellipse, support=Support.rim(ellipse), start=(0.0, None)), PLANE)
+        MujocoRig(config(outline=ellipse, support=Support.rim(ellipse), start=(0.0, None)), PHYSICS)
