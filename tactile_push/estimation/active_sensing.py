@@ -5,8 +5,9 @@
 import math
 from dataclasses import replace
 
-from tactile_push.estimation.contradictions import BLIND
+from tactile_push.estimation.contradictions import BLIND, DISOBEYED
 from tactile_push.estimation.finger_motion import FingerMotion
+from tactile_push.estimation.joint_way import JointWay
 from tactile_push.estimation.object_estimator import Estimator, ObjectEstimate
 from tactile_push.interface import SILENT, STRAIGHT, WIDEN
 from tactile_push.mechanics import CENTRE, added_way
@@ -18,6 +19,7 @@ MOTION_UNKNOWN = 'the finger moved unknown to the controller'
 TICKS_MISSING = 'ticks missing'
 TIME_WENT_BACK = 'time went back'
 TIP_UNKNOWN = 'direction of the finger tip unknown'
+JOINTS_DOUBTED = 'the joints tell of another motion than was commanded'
 
 SAME_STAMP = 1e-6  # in which two stamps are the same [s]
 FASTEST = 1.0  # a faster command counts as an unknown motion [m/s]
@@ -41,6 +43,10 @@ class ActiveSensing:
     is a longer one. After `timeout` it depends on `without_psi`: `SILENT` says nothing before the
     direction is told again, `WIDEN` takes each reading for the first one, and `STRAIGHT` takes the
     tip for one that does not turn.
+
+    The joints tell where the finger is, too. A finger that does not quite follow its commands is
+    believed (`JointWay`). If the joints tell of a quite different motion, they tell no direction of
+    the tip either: the readings are taken for ones without it until the two agree again.
 
     It has no clock: the same ticks in the same order give the same estimates.
 
@@ -75,8 +81,9 @@ class ActiveSensing:
         one.
     timeout : float
         As given.
-    blind : bool
-        Whether the last tick had a new reading, but not the direction of the finger tip.
+    blind : str
+        Why the last tick had a new reading, but no direction of the finger tip to believe, one of
+        `CONTRADICTIONS`; empty if it had, or no reading.
     """
 
     def __init__(
@@ -92,6 +99,7 @@ class ActiveSensing:
     ) -> None:
         self._estimator = estimator
         self._motion = motion
+        self._joints = JointWay()
         self._belt_speed = belt_speed
         self.timeout = timeout
         self._point = point
@@ -107,10 +115,16 @@ class ActiveSensing:
         self.took = False
         self.forgot = ''
         self.age = math.nan
-        self.blind = False
+        self.blind = ''
 
     def tick(
-        self, stamp: float, theta: float, silence: float, v_x: float, psi: float = math.pi / 2.0
+        self,
+        stamp: float,
+        theta: float,
+        silence: float,
+        v_x: float,
+        psi: float = math.pi / 2.0,
+        x: float = math.nan,
     ) -> ObjectEstimate:
         """Take a tick.
 
@@ -128,6 +142,8 @@ class ActiveSensing:
         psi : float, optional
             Direction of the finger tip at the moment of the reading [rad]; NaN if it is not known.
             By default it does not turn.
+        x : float, optional
+            Where the joints say that the finger is at that moment [m]; NaN if it is not known.
 
         Returns
         -------
@@ -141,7 +157,8 @@ class ActiveSensing:
         if self._without_psi == STRAIGHT and math.isnan(psi):
             psi = math.pi / 2.0
         is_new = not read <= self._read + SAME_STAMP
-        self.blind = touches and is_new and math.isnan(psi - self._psi if self.readings else psi)
+        untold = math.isnan(psi - self._psi if self.readings else psi)
+        self.blind = BLIND if touches and is_new and untold else ''
         self.forgot = self._reason_to_forget(stamp, touches)
         if not self.forgot and self.blind and self.readings and read - self._read > self.timeout:
             self.forgot = TIP_UNKNOWN
@@ -153,19 +170,20 @@ class ActiveSensing:
         self._ticked, self._v_x = stamp, v_x if abs(v_x) <= FASTEST else math.nan
         self.age = silence if touches else math.nan
         is_new |= not self.readings
-        left_out = self.blind and (self.readings > 0 or self._without_psi != WIDEN)
+        left_out = self.blind != '' and (self.readings > 0 or self._without_psi != WIDEN)
         self.took = touches and is_new and not left_out and not math.isnan(self._v_x)
         if self.took and not self.readings:
             self._motion.reset(read, before)
+            self._joints.reset(x)
         if self.took or self.readings:
             self._motion.command(stamp, self._v_x)
         if self.took:
-            return self._take(theta, psi, read)
+            return self._take(theta, psi, x, read)
         estimate = self._estimator.estimate()
         silent = self.blind and not self.readings
-        return replace(estimate, contradiction=BLIND) if silent else estimate
+        return replace(estimate, contradiction=self.blind) if silent else estimate
 
-    def _take(self, theta: float, psi: float, read: float) -> ObjectEstimate:
+    def _take(self, theta: float, psi: float, x: float, read: float) -> ObjectEstimate:
         """Take a reading and the push that led to it; the first one has none."""
         way, duration, turned = self._motion.way(read), 0.0, 0.0
         if self.readings:
@@ -173,10 +191,25 @@ class ActiveSensing:
             turned = math.remainder(psi - self._psi, 2.0 * math.pi)
             mean = (self._theta + theta) / 2.0
             way += added_way(self._point, psi - turned, psi, mean, self._radius)
+            if self._without_psi != STRAIGHT:
+                doubted = self._joints.doubted
+                way = self._joints.corrected(way, x, duration)
+                self.forgot = JOINTS_DOUBTED if self._joints.doubted > doubted else ''
         self.readings += 1
         self._theta, self._psi, self._read = theta, psi, read
+        if self._joints.doubted:
+            return self._take_for_the_first(theta)
         v_x, spin = (way / duration, turned / duration) if duration else (0.0, 0.0)
         return self._estimator.push(theta, v_x, self._belt_speed, duration, spin)
+
+    def _take_for_the_first(self, theta: float) -> ObjectEstimate:
+        """Take a reading before which nothing is known, because the joints are not believed."""
+        self.blind = DISOBEYED
+        self._estimator.reset()
+        estimate = self._estimator.push(theta, 0.0, self._belt_speed, 0.0, 0.0)
+        return (
+            estimate if self._without_psi == WIDEN else replace(estimate, contradiction=DISOBEYED)
+        )
 
     def _touches(self, stamp: float, theta: float, silence: float) -> bool:
         """Return whether a pushed edge was felt a moment ago.

@@ -45,7 +45,12 @@ NOISY = 'the readings scatter far more than the stated noise'
 IMPOSSIBLE = 'no object within the bounds on l, r, c, mu_c and noise turns like this'
 MOVED = 'the contact is not where it has rolled to along the edge: does the finger tip turn?'
 BLIND = 'the direction of the finger tip is unknown: are there joint states of all its joints?'
-CONTRADICTIONS = ('', ANYWHERE, JUMPED, STILL, LEFT, OTHERWISE, NOISY, IMPOSSIBLE, MOVED, BLIND)
+DISOBEYED = (
+    'the joints tell of another motion than was commanded: are names, lengths and signs right?'
+)
+CONTRADICTIONS = (
+    *('', ANYWHERE, JUMPED, STILL, LEFT, OTHERWISE, NOISY, IMPOSSIBLE, MOVED, BLIND, DISOBEYED),
+)
 
 
 class _Line:

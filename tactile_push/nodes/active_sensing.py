@@ -11,7 +11,6 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
-from tactile_push.estimation.contradictions import BLIND
 from tactile_push.interface import CONTROLLER_STATE, OBJECT_POSE, SENSING_MARKERS, SENSING_STATE
 from tactile_push.nodes.ros.compiling import compiling
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
@@ -93,7 +92,7 @@ class ActiveSensingNode(Node):
         if not sensed.values['readings']:
             return Health(WARN, 'nothing known: no contact', values)
         if sensed.blind:
-            return Health(WARN, f'hardly estimating: {BLIND}', values)
+            return Health(WARN, f'hardly estimating: {sensed.blind}', values)
         return Health(OK, 'estimating', values)
 
 

@@ -54,7 +54,8 @@ class ActiveSensingParameters(NodeParameters):
     finger_radius: float = shared.finger_radius
     commanded_point: str = shared.commanded_point
     without_psi: str = parameter(SILENT, '',
-        'while the controller does not know the direction of the finger tip: silent says nothing, '
+        'while the direction of the finger tip is not known, or the joints tell of another motion '
+        'than was commanded: silent says nothing, '
         'widen takes each reading for the first one, straight takes the tip for one that does not '
         'turn', choices=WITHOUT_PSI, read_only=True)
     finger_lag: float = parameter(0.0, 's',

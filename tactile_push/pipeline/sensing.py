@@ -25,7 +25,7 @@ class Sensed(NamedTuple):
     took: bool  #: whether there was a reading
     forgot: str  #: why everything was forgotten; empty if it was not
     has_pose: bool  #: whether there is a new pose to publish
-    blind: bool  #: whether the direction of the finger tip was not known
+    blind: str  #: why the direction of the finger tip is not believed; empty if it is
 
     @property
     def known(self) -> bool:
@@ -60,6 +60,7 @@ class Sensing:
         self.sensing = sensing
         self._seconds = seconds
         self._ticked = -math.inf
+        self._v_x = math.nan  # from the last tick on [m/s]
 
     def state(self, stamp: Stamp, names: Sequence[str], positions: Sequence[float]) -> Sensed:
         """Take a message of `push_controller/state`; ValueError if it is no control period.
@@ -92,7 +93,8 @@ class Sensing:
         sensing = self.sensing
         now = self._seconds(*stamp)
         psi = self._psi(now, tick)
-        estimate = sensing.tick(now, tick.theta, tick.silence, tick.known_velocity, psi)
+        x = self._x(tick) if math.isfinite(psi) else math.nan
+        estimate = sensing.tick(now, tick.theta, tick.silence, tick.known_velocity, psi, x)
         return Sensed(
             stamp,
             sensing_values(estimate, sensing),
@@ -102,6 +104,14 @@ class Sensing:
             tells_pose(estimate, sensing),
             sensing.blind,
         )
+
+    def _x(self, tick: Tick) -> float:
+        """Return where the finger was at the tick's reading [m]; NaN if the joints do not tell.
+
+        Between joint states and reading, which are never far apart, it followed its command.
+        """
+        before, self._v_x = self._v_x, tick.known_velocity
+        return tick.finger_x + before * (tick.finger_age - tick.silence)
 
     def _psi(self, now: float, tick: Tick) -> float:
         """Return the direction of the finger tip at the tick's reading [rad]; NaN if unknown."""

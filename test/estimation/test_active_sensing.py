@@ -17,8 +17,8 @@ from tactile_push.estimation import (
     edges_of,
     sensing_values,
 )
-from tactile_push.estimation.active_sensing import TIP_UNKNOWN
-from tactile_push.estimation.contradictions import BLIND, CONTRADICTIONS
+from tactile_push.estimation.active_sensing import JOINTS_DOUBTED, TIP_UNKNOWN
+from tactile_push.estimation.contradictions import BLIND, CONTRADICTIONS, DISOBEYED
 from tactile_push.interface import SILENT, STRAIGHT, WIDEN
 from tactile_push.mechanics import CENTRE, CONTACT, POLE
 
@@ -338,3 +338,50 @@ def test_straight_tip_is_as_before(listener):
             sensing.tick(0.1 * k, 0.3 - 0.01 * k, 0.013, 0.001 * k, *psi)
     assert told.pushes == untold.pushes
     assert told.spins == untold.spins == [0.0] * 5
+
+
+def frozen(without_psi):
+    """Return active sensing after joints that stood still for 1 s, and what it told of each tick.
+
+    The finger was commanded to go at 4 mm/s in that time, and then stood as the joints said.
+    """
+    estimator = DiskEstimator(0.0285, 0.0035)
+    sensing = ActiveSensing(estimator, FingerMotion(), BELT, 0.3, without_psi=without_psi)
+    told = []
+    for k in range(40):
+        estimate = sensing.tick(0.1 * k, 0.1, 0.0, 0.004 if k < 10 else 0.0, 1.5, 0.02)
+        told.append((estimate.contradiction, sensing.forgot, sensing.blind))
+    return sensing, told
+
+
+def test_silent_it_says_that_the_joints_do_not_add_up_until_they_do():
+    sensing, told = frozen(SILENT)
+    silent = [contradiction == DISOBEYED for contradiction, _, _ in told]
+    first = silent.index(True)
+    assert 3 < first < 10
+    assert all(silent[first:10])
+    assert not any(silent[30:])
+    assert [forgot for _, forgot, _ in told].count(JOINTS_DOUBTED) == 1
+    assert told[first][1] == JOINTS_DOUBTED
+    assert sensing.readings == 40
+
+
+def test_widened_it_takes_readings_for_the_first_while_the_joints_do_not_add_up():
+    _, told = frozen(WIDEN)
+    assert not any(contradiction for contradiction, _, _ in told)
+    doubted = [blind == DISOBEYED for _, _, blind in told]
+    assert all(doubted[9:11])
+    assert not any(doubted[30:])
+
+
+def test_straight_tip_does_not_ask_the_joints():
+    _, told = frozen(STRAIGHT)
+    assert [(forgot, blind) for _, forgot, blind in told] == [('', '')] * 40
+    assert DISOBEYED not in [contradiction for contradiction, _, _ in told]
+
+
+def test_way_of_a_push_is_corrected_by_the_joints(sensing, listener):
+    for k in range(60):  # the finger goes at 1.2 mm/s
+        sensing.tick(0.1 * k, 0.3, 0.0, 0.001, 1.5, 0.00012 * k)
+    assert listener.pushes[1][1] > 0.001
+    assert listener.pushes[-1][1] == pytest.approx(0.0012, rel=1e-3)

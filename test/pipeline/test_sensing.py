@@ -4,6 +4,7 @@
 
 import math
 from dataclasses import replace
+from itertools import islice
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,11 +15,13 @@ from hypothesis import strategies as st
 from support.clock_apart import PERIOD, START, periods, seconds
 from tactile_push.control import NO_REASON, PUSHING, PushLaw, Tick, tick_values
 from tactile_push.estimation.contradictions import BLIND
-from tactile_push.interface import OBJECT_POSE, SENSING_STATE
+from tactile_push.interface import OBJECT_POSE, POINTS, SENSING_STATE
+from tactile_push.mechanics import POLE
 from tactile_push.parameters.active_sensing import ActiveSensingParameters, make_sensing
 from tactile_push.parameters.push_controller import PushControllerParameters, make_control
 from tactile_push.pipeline import Sensing
 from tactile_push.pipeline.sensing import Sensed
+from tactile_push.simulation import Faults, Rig, Sensor, control_periods, paper_block
 
 RADIUS = 0.0285  # [m]
 
@@ -132,7 +135,7 @@ def test_direction_of_the_tip_is_that_at_the_moment_of_the_reading():
     class Listener:
         timeout = 0.3
 
-        def tick(self, stamp, theta, silence, v_x, psi):
+        def tick(self, stamp, theta, silence, v_x, psi, x):
             told.append(psi)
             raise StopIteration
 
@@ -155,6 +158,31 @@ def test_without_joint_states_the_direction_of_the_tip_is_unknown():
         assert sensed.estimate.contradiction == BLIND
         assert not sensed.known
         assert list(sensed.outputs())[1:] == []
+
+
+def share_inside(sense):
+    """Return in which share of 20 s the 95 % interval has d, if the pole follows the commands.
+
+    Active sensing was told that the centre does.
+    """
+    start = paper_block(-0.12, -0.014, mu_c=0.5)
+    config = replace(start, tip_turns=True, commanded_point=POINTS[POLE])
+    rig = Rig(config, Faults(sensor=Sensor(noise=math.radians(0.2))))
+    push = make_control(PushControllerParameters())
+    sensing = Sensing(make_sensing(ActiveSensingParameters()), lambda k, _: 0.1 * k)
+    inside = []
+    for k, done in enumerate(islice(control_periods(rig, push, 5, 1), 200)):
+        d = sense(sensing, (k, 0), done).estimate.d
+        inside.append(d.lower <= rig.d <= d.upper)
+    return sum(inside) / len(inside)
+
+
+def test_finger_that_follows_with_another_point_is_followed_by_its_joints():
+    def without_x(sensing, stamp, done):
+        return sensing.tick(stamp, replace(done, finger_x=math.nan))
+
+    assert share_inside(Sensing.tick) > 0.93
+    assert share_inside(without_x) < 0.7
 
 
 # How long after the last one a tick comes, and how far ahead of it its reading is stamped [ms].
