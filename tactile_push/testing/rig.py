@@ -13,7 +13,16 @@ from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
 
 from tactile_push.control import STATES, STOP_REASONS
-from tactile_push.interface import COMMAND, CONTACT, CONTROLLER_STATE, TACTILE, TRUE_STATE
+from tactile_push.interface import (
+    COMMAND,
+    CONTACT,
+    CONTROLLER_STATE,
+    PLANTS,
+    SENSOR_DRIVER,
+    SIM_PLANT,
+    TACTILE,
+    TRUE_STATE,
+)
 from tactile_push.parameters.config_file import config_file
 from tactile_push.testing.fork_server import ForkedNode
 from tactile_push.testing.observer import Heard, Observer, field
@@ -25,7 +34,7 @@ MOVING = 1e-4  # [m/s]
 
 
 class Rig:
-    """Belt, object, finger and sensor as `sim_plant` simulates them, and the nodes around it.
+    """Belt, object, finger and sensor as a plant simulates them, and the nodes around it.
 
     Parameters
     ----------
@@ -87,7 +96,14 @@ class Rig:
         """
         return f'{self.namespace}.{node}' if self.namespace else node
 
-    def start(self, config: str | Path = 'block', *, controller: bool = True, **plant: Any) -> None:
+    def start(
+        self,
+        config: str | Path = 'block',
+        *,
+        controller: bool = True,
+        simulator: str = SIM_PLANT,
+        **plant: Any,
+    ) -> None:
         """Start the nodes on simulated time and wait until they hear each other.
 
         The belt stands until the first command, so every run begins at the same angle.
@@ -99,11 +115,13 @@ class Rig:
         controller : bool, optional
             Whether to start `push_controller`; without it the test's own controller moves the
             finger.
+        simulator : str, optional
+            The node that simulates, `sim_plant` or `mujoco_plant`.
         **plant : object
-            Parameters of `sim_plant`, such as the faults of the sensor.
+            Parameters of that node, such as the faults of the sensor.
         """
         self._config = config if isinstance(config, Path) else config_file(f'{config}.yaml')
-        self.start_node('sim_plant', TIMING | plant)
+        self.start_node(simulator, TIMING | plant)
         simulated = {'use_sim_time': True}
         self.start_node('sensor_driver', simulated)
         self.start_node('contact_geometry', simulated)
@@ -136,7 +154,7 @@ class Rig:
         ForkedNode
             The process.
         """
-        if node in ('sim_plant', 'sensor_driver'):
+        if node in (*PLANTS, SENSOR_DRIVER):
             parameters = {'device': self._device, **parameters}
         if self.namespace:
             arguments += ('-r', f'__ns:=/{self.namespace}')

@@ -59,8 +59,8 @@ def controlled(rig, steps):
     ('outline', 'support', 'mu_c', 'height'),
     [
         (BLOCK, CORNERS, 0.1, 0.0),
-        (BLOCK, Support.uniform(BLOCK, 16), math.inf, 0.016),
-        (Outline.circle(0.0285), Support.rim(Outline.circle(0.0285), 16), 0.3, 0.016),
+        (BLOCK, Support.uniform(BLOCK, 9), math.inf, 0.016),
+        (Outline.circle(0.0285), Support.rim(Outline.circle(0.0285), 9), 0.3, 0.016),
     ],
     ids=['corners, slipping', 'uniform, sticking, above the belt', 'disk, above the belt'],
 )

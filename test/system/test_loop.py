@@ -1,15 +1,19 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
 import math
+from dataclasses import replace
+from itertools import islice
 
 import numpy as np
 import pytest
 
-from tactile_push.control import STATES, PushLaw, settle_step
-from tactile_push.simulation import experiment, paper_block, paper_disk
+from tactile_push.control import STATES, PushControl, PushLaw, settle_step
+from tactile_push.parameters import MujocoPlantParameters
+from tactile_push.parameters.mujoco_plant import mujoco_config
+from tactile_push.simulation import control_periods, experiment, paper_block, paper_disk
 from tactile_push.testing import Rig, field
 
-STEPS = 260
+STEPS, FEW_STEPS = 260, 60
 
 
 @pytest.mark.parametrize(
@@ -32,7 +36,7 @@ def test_loop_settles_along_the_trajectory_of_the_experiment_without_clocks_and_
     states = [m for m in rig.states if field(m, 'state') == pushing][: STEPS + 1]
     theta = np.array([field(m, 'theta') for m in states])
     phi = np.array([field(m, 'phi') for m in states])
-    expected = experiment(ideal, PushLaw(0.05, 5.0, theta_desired), STEPS)
+    expected = experiment(replace(ideal, tip_turns=True), PushLaw(0.05, 5.0, theta_desired), STEPS)
     assert np.degrees(np.abs(theta - expected.theta)).max() < 0.5
     assert np.degrees(np.abs(phi - expected.phi)).max() < 3.0
     assert settle_step(theta, theta_desired, band) is not None
@@ -40,3 +44,25 @@ def test_loop_settles_along_the_trajectory_of_the_experiment_without_clocks_and_
     # The finger pushes straight ahead first: no kick.
     assert field(states[0], 'phi') == pytest.approx(math.pi / 2.0)
     assert field(states[0], 'v_x') == 0.0
+
+
+def test_loop_on_mujoco_goes_along_the_trajectory_without_clocks_and_processes(rig: Rig):
+    pytest.importorskip('mujoco', reason="pip install 'tactile_push[mujoco]'")
+    from tactile_push.simulation.mujoco_rig import MujocoRig
+
+    rig.start('block', simulator='mujoco_plant')
+    pushing = float(STATES.index('pushing'))
+    rig.observer.wait_for(
+        lambda: sum(field(m, 'state') == pushing for m in rig.states) > FEW_STEPS,
+        f'{FEW_STEPS} control periods',
+        patience=120.0,
+    )
+    states = [m for m in rig.states if field(m, 'state') == pushing][: FEW_STEPS + 1]
+    theta = np.array([field(m, 'theta') for m in states])
+    same = MujocoRig(*mujoco_config(MujocoPlantParameters(mu_c=0.5)))
+    control = PushControl(PushLaw(0.05, 5.0, math.radians(-10.0)), 0.005, 0.1)
+    periods = islice(control_periods(same, control, 2, 0), len(states))
+    expected = np.array([tick.theta for tick in periods])
+    assert theta[0] - theta[-1] > math.radians(5.0)
+    assert np.degrees(np.abs(theta - expected)).max() < 0.5
+    assert field(states[-1], 'ticks_lost') == 0.0

@@ -102,6 +102,15 @@ def test_nodes_start_with_the_plant_first_and_the_controller_last(rig):
     ]
 
 
+def test_another_plant_may_simulate(rig):
+    heard_all(rig)
+    rig.start(simulator='mujoco_plant', push_height=0.01)
+    started = rig.nodes.started
+    assert list(started)[:2] == ['mujoco_plant', 'sensor_driver']
+    plant = started['mujoco_plant'].parameters
+    assert plant.items() >= {'device': '/dev/sensor', 'push_height': 0.01}.items()
+
+
 def test_test_may_bring_its_own_controller_and_parameter_file(rig, tmp_path):
     heard_all(rig)
     rig.start(tmp_path / 'own.yaml', controller=False)
