@@ -18,7 +18,7 @@ which it only has -RATE * velocity on the right. What a sum of contacts is to do
   are, and the loads shift between them as between springs.
 - A contact that holds a friction f creeps with f R / (impratio RATE). With SOFTNESS of the weight
   on the feet and mu_s in the friction, feet keep to Coulomb's law from mu_s g SOFTNESS /
-  (impratio RATE) on, 3 um/s with mu_s = 0.3, and a tip that sticks creeps no faster.
+  (impratio RATE) on, 0.3 um/s with mu_s = 0.3, and a tip that sticks creeps no faster.
 - An object that is left alone slows down with RATE times its velocity at the most.
 - A contact that slips is lifted (the cones are convex) as if its reference acceleration were
   greater by mu RATE times the slip velocity; of SOFTNESS g that is 1.5 % at 5 mm/s, mu_s = 0.3.
@@ -47,7 +47,7 @@ SAG = 50e-6  # of the feet under the object's weight [m]; a swing of 70 Hz
 DENT = 30e-6  # of the tip by the force that moves the object [m]
 SOFTNESS = 3.0  # R m at a contact with all the weight; see above
 RATE = 300.0  # of friction below Coulomb's bound [1/s]
-IMPRATIO = 1e4  # R along the normal to R along the surface
+IMPRATIO = 1e5  # R along the normal to R along the surface
 FOOT = 0.003  # radius of the feet [m], which touch the belt at their lowest points
 TOLERANCE = (
     1e-14  # of the solver, which takes it relative to an inertia that the finger makes large

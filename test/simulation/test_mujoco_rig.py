@@ -83,8 +83,8 @@ def test_a_contact_that_sticks_to_a_turning_tip_rolls_by_the_difference_of_the_t
         assert rig.mode_name == 'stick'
         rolled.append(rig.d + 0.0135 * (rig.theta - rig.psi))
     assert abs(rig.psi - psi) > 0.1
-    # It creeps by 3 um/s at the most. The turn of the tip alone moves d by 2 mm.
-    assert np.ptp(rolled) < 4e-5
+    # It gives a little as the push begins. The turn of the tip alone moves d by 2 mm.
+    assert np.ptp(rolled) < 2e-5
 
 
 def test_a_push_above_the_belt_moves_the_centre_of_pressure_forward():
