@@ -29,7 +29,7 @@ def push_of(v_x: float) -> Push:
 def advance_all(particles: Array, l: float, push: Push, moments: Array) -> None:
     """Push every particle for a control period."""
     for row in particles:
-        pressure = Pressure(row[2], 0.0, 0.0, moments)  # an ellipsoid
+        pressure = Pressure(row[2], 0.0, 0.0, moments, 0.0)  # an ellipsoid, pushed at the belt
         row[0], row[1], _ = advance(row[0], row[1], row[3], l, RADIUS, pressure, push, False)
 
 

@@ -211,8 +211,8 @@ class PushController(ManagedNode):
             elapsed, self._steady = steady - self._steady, steady
         self._tick = self._steps.tick((stamp.sec, stamp.nanosec), elapsed)
         self._ticked_at = time.monotonic()
-        self._tell_growth(self._tick)
         self._publish(stamp, self._tick)
+        self._tell_growth(self._tick)  # which takes its time; the finger has its command by now
         self._diagnostics.update()
 
     def _tell_growth(self, tick: Tick) -> None:

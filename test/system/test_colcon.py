@@ -16,6 +16,7 @@ EXECUTABLES = {
     'active_sensing',
     'push_controller',
     'sim_plant',
+    'mujoco_plant',
     'experiment',
     'bag_recorder',
     'bag_player',
