@@ -4,7 +4,10 @@
 
 import hashlib
 import logging
+import os
 import pickle
+import sys
+import time
 from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
@@ -16,6 +19,12 @@ from numba.core.dispatcher import Dispatcher
 
 PACKAGE = Path(__file__).parents[1]
 CHECKSUM = 32  # bytes of SHA-256 before the content of each file
+PATIENCE = (
+    60.0  # for another process that compiles one function [s]; ten times what the longest takes
+)
+LOOK = (
+    0.01  # between two looks whether it is ready [s]; a compilation takes a hundred times as long
+)
 
 _LOG = logging.getLogger('tactile_push')
 
@@ -44,15 +53,29 @@ def keep_machine_code(dispatcher: Dispatcher) -> Dispatcher:
 
 
 class _MachineCode(FunctionCache):
-    """The machine code of one function; what cannot be read is compiled again."""
+    """The machine code of one function; what cannot be read is compiled again.
+
+    Of processes that need it at once, one compiles and the others wait for it.
+    """
 
     def __init__(self, function: Callable[..., Any]) -> None:
         super().__init__(function)
         name = f'{self._impl.filename_base}.checked'  # files that numba wrote have no checksum
         stamp = _stamp_of_sources(), _stamp_of(function)
         self._cache_file = _CheckedFiles(self._cache_path, name, stamp)
+        self._turn = _Turn(Path(self._cache_path) / f'{name}.lock')
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Return the code for a signature, or None if it has to be compiled."""
+        code = self._load(sig, target_context)
+        if code is None:
+            self._turn.take()
+            code = self._load(sig, target_context)  # which another process may have made meanwhile
+            if code is not None:
+                self._turn.end()
+        return code
+
+    def _load(self, sig: Any, target_context: Any) -> Any:
         """Return the code for a signature, or None if there is none that can be used."""
         try:
             return super().load_overload(sig, target_context)
@@ -70,6 +93,52 @@ class _MachineCode(FunctionCache):
             super().save_overload(sig, data)
         except (_DamagedError, OSError) as error:
             _warn_once(f'machine code cannot be kept, so the next start compiles again: {error}')
+        finally:
+            self._turn.end()
+
+
+class _Turn:
+    """The right to compile a function, which one process has at a time.
+
+    A process whose compilation fails keeps it until its end, so nobody waits for ever.
+    """
+
+    def __init__(self, file: Path) -> None:
+        self._file = file
+        self._held: int | None = None
+
+    def take(self) -> None:
+        """Take the turn as soon as nobody else has it, or without it after `PATIENCE`."""
+        if self._held is not None:
+            return
+        try:
+            self._held = os.open(self._file, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+        except OSError:  # no room, which is said when the code is to be kept
+            return
+        patient_until = time.monotonic() + PATIENCE
+        while not _lock(self._held) and time.monotonic() < patient_until:
+            time.sleep(LOOK)
+
+    def end(self) -> None:
+        """Let the next process have the turn."""
+        if self._held is not None:
+            os.close(self._held)
+            self._held = None
+
+
+def _lock(file: int) -> bool:
+    """Return whether this process has a file to itself now."""
+    if sys.platform == 'win32':
+        return True
+    import fcntl
+
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:  # a file system without locks
+        return True
+    return True
 
 
 class _CheckedFiles(IndexDataCacheFile):

@@ -8,6 +8,7 @@ import resource
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -131,12 +132,31 @@ def test_data_that_is_gone_is_compiled_again(program):
 
 
 @pytest.mark.slow
-def test_processes_that_compile_at_once_do_not_disturb_one_another(program):
-    program.write_text(SOURCE + PRINTS)
+def test_of_processes_that_need_the_code_at_once_one_compiles(program):
+    program.write_text(SOURCE + PRINTS.replace(', power(3, 3)', ''))
     processes = [started(program) for _ in range(3)]
-    for out, error in [process.communicate() for process in processes]:
-        assert (out.removeprefix('compiled\n'), error) == (RIGHT, '')
-    assert run(program) == (RIGHT, [])
+    told = [process.communicate() for process in processes]
+    assert sorted(told) == [('9.0\n', ''), ('9.0\n', ''), ('compiled\n9.0\n', '')]
+
+
+def test_process_that_fails_to_compile_holds_others_up_no_longer_than_they_are_patient(
+    program, monkeypatch
+):
+    first, second = (machine_code._Turn(program.with_suffix('.lock')) for _ in range(2))
+    monkeypatch.setattr(machine_code, 'PATIENCE', 0.2)
+
+    def waited(turn):
+        start = time.monotonic()
+        turn.take()
+        return time.monotonic() - start
+
+    first.take()
+    first.take()  # which is its own
+    assert waited(second) >= 0.2
+    second.end()
+    first.end()
+    monkeypatch.setattr(machine_code, 'PATIENCE', 60.0)
+    assert waited(second) < 60.0
 
 
 @pytest.fixture
