@@ -19,8 +19,6 @@ roots find the motion.
 
 import math
 
-import numpy as np
-
 from tactile_push.mechanics.compiled import Array, compiled, equation, reduction
 from tactile_push.mechanics.motion import (
     FREE,
@@ -43,13 +41,21 @@ BISECTED = 1e-13  # last step of a bisection, relative
 
 @reduction
 def support_force(
-    u_x: float, u_y: float, omega: float, x_c: float, y_c: float, support: Array
+    u_x: float,
+    u_y: float,
+    omega: float,
+    x_c: float,
+    y_c: float,
+    support: Array,
+    tilting_x: float = 0.0,
+    tilting_y: float = 0.0,
 ) -> tuple[float, float, float, float, float, float, float, float, float]:
     """Compute the wrench that keeps a motion going, and its derivatives by the motion.
 
     The wrench (f_x, f_y, m) refers to the reference point (x_c, y_c) of the object's frame, where
     the material moves at (u_x, u_y), not zero. The symmetric matrix of its derivatives by
-    (u_x, u_y, omega) follows: h_xx, h_xy, h_yy, h_xm, h_ym, h_mm.
+    (u_x, u_y, omega) follows: h_xx, h_xy, h_yy, h_xm, h_ym, h_mm. The loads are those under the
+    force (tilting_x, tilting_y).
     """
     floor = STANDSTILL**2 * (u_x * u_x + u_y * u_y) + SMALLEST_SQUARE
     f_x, f_y, m = 0.0, 0.0, 0.0
@@ -58,7 +64,10 @@ def support_force(
         x, y = support[0, i] - x_c, support[1, i] - y_c
         v_x, v_y = u_x - omega * y, u_y + omega * x
         square = max(v_x * v_x + v_y * v_y, floor)
-        viscosity = support[2, i] / math.sqrt(square)  # friction over speed
+        load = support[2, i]
+        if len(support) > EVEN:
+            load += tilting_x * support[3, i] + tilting_y * support[4, i]
+        viscosity = load / math.sqrt(square)  # friction over speed
         f_x += viscosity * v_x
         f_y += viscosity * v_y
         m += viscosity * (x * v_y - y * v_x)
@@ -130,11 +139,8 @@ def pushing_force(
         return f_x, f_y, m, h_xx, h_xy, h_yy, h_xm, h_ym, h_mm, h_xy, h_xm, h_ym
     f_x, f_y, xx, xy, yx, yy, mx, my = frictions_by_force(u_x, u_y, omega, x_c, y_c, support)
     f_x, f_y = solved(xx, xy, yx, yy, f_x, f_y)
-    tilted = np.empty((EVEN, support.shape[1]))
-    tilted[:2] = support[:2]
-    tilted[2] = support[2] + f_x * support[3] + f_y * support[4]
     f_x, f_y, m, h_xx, h_xy, h_yy, h_xm, h_ym, h_mm = support_force(
-        u_x, u_y, omega, x_c, y_c, tilted
+        u_x, u_y, omega, x_c, y_c, support, f_x, f_y
     )
     # Derivatives under fixed loads, and by the loads that change with the force.
     p_xx, p_yx = solved(xx, xy, yx, yy, h_xx, h_xy)
