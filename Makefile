@@ -28,7 +28,7 @@ test: lint
 	$(PYTEST)
 
 test-quick: $(TEST_READY)
-	$(PYTEST) -m 'not slow' $(GRAPH:%=--ignore=%)
+	$(PYTEST) --numprocesses 2 -m 'not slow' $(GRAPH:%=--ignore=%)
 
 docs: $(TEST_READY)
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet docs out/docs

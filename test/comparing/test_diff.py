@@ -275,6 +275,7 @@ def bag_of(folder, name, rows):
     return BagReader(write_bag(Path(folder, name), {'/x': (JOINT_STATE, messages)}))
 
 
+@pytest.mark.slow
 @settings(max_examples=30, deadline=None)
 @given(ROWS)
 def test_bag_equals_itself(rows):

@@ -138,6 +138,7 @@ def test_messages_that_are_shuffled_a_little_are_found():
     assert Counter(pairs_of(a, b)) == right_pairs(a, b)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('size', [0, 100_000])
 def test_what_waits_is_bounded_by_number_and_by_bytes(size):
     waiting, most = 0, 0

@@ -72,6 +72,7 @@ def shares_inside(tilt, told, mu_c, seeds, steps):
     return np.array(shares)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('tilt', [0.0, 0.0048, 0.008])
 def test_a_slipping_contact_above_the_support_is_held_by_the_interval(tilt):
     # mu_s = 0.3 at 16 mm, and the ends of what is stated.
@@ -81,6 +82,7 @@ def test_a_slipping_contact_above_the_support_is_held_by_the_interval(tilt):
     assert shares.min() > 0.8
 
 
+@pytest.mark.slow
 def test_a_push_above_the_support_has_to_be_told():
     assert shares_inside(0.0048, 0.0, 0.1, 6, 250).mean() < 0.85
 

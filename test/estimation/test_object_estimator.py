@@ -180,6 +180,7 @@ def found_by_a_tip_that_turns(seed, *, told, start=None, steps=250):
     return inside, estimates[-1].d.upper - estimates[-1].d.lower
 
 
+@pytest.mark.slow
 def test_contact_is_found_by_a_tip_that_turns_if_somebody_tells_how_fast():
     told = [found_by_a_tip_that_turns(seed, told=True)[0] for seed in range(4)]
     untold = [found_by_a_tip_that_turns(seed, told=False)[0] for seed in range(4)]

@@ -113,6 +113,7 @@ def test_a_density_with_a_step_is_integrated_roughly():
     assert found[0] == pytest.approx(math.pi * 0.03**2 / 2.0, rel=3e-3)
 
 
+@pytest.mark.slow
 def test_a_density_whose_integral_does_not_converge_is_refused():
     with pytest.raises(ValueError, match='density: expected one whose integral converges'):
         integrals(CIRCLE, ORIGIN, lambda x, y: 1.0 / (x * x + y * y) ** 2, second_moments)

@@ -177,6 +177,7 @@ def share_inside(sense):
     return sum(inside) / len(inside)
 
 
+@pytest.mark.slow
 def test_finger_that_follows_with_another_point_is_followed_by_its_joints():
     def without_x(sensing, stamp, done):
         return sensing.tick(stamp, replace(done, finger_x=math.nan))
