@@ -100,7 +100,7 @@ class _MachineCode(FunctionCache):
 class _Turn:
     """The right to compile a function, which one process has at a time.
 
-    A process whose compilation fails keeps it until its end, so nobody waits for ever.
+    A process whose compilation fails keeps it until its end. Nobody waits longer than `PATIENCE`.
     """
 
     def __init__(self, file: Path) -> None:

@@ -6,6 +6,7 @@ from itertools import islice
 
 import numpy as np
 import pytest
+from sensor_msgs.msg import JointState
 
 from tactile_push.control import STATES, PushControl, PushLaw, settle_step
 from tactile_push.parameters import MujocoPlantParameters
@@ -14,6 +15,17 @@ from tactile_push.simulation import control_periods, experiment, paper_block, pa
 from tactile_push.testing import Rig, field
 
 STEPS, FEW_STEPS = 260, 60
+
+
+def pushed(rig: Rig, steps: int) -> list[JointState]:
+    """Return the states of the first control periods in which the controller pushes."""
+    pushing = float(STATES.index('pushing'))
+    rig.observer.wait_for(
+        lambda: sum(field(m, 'state') == pushing for m in rig.states) > steps,
+        f'{steps} control periods',
+        patience=120.0,
+    )
+    return [m for m in rig.states if field(m, 'state') == pushing][: steps + 1]
 
 
 @pytest.mark.parametrize(
@@ -27,13 +39,7 @@ def test_loop_settles_along_the_trajectory_of_the_experiment_without_clocks_and_
     rig: Rig, config, ideal, theta_desired, band
 ):
     rig.start(config)
-    pushing = float(STATES.index('pushing'))
-    rig.observer.wait_for(
-        lambda: sum(field(m, 'state') == pushing for m in rig.states) > STEPS,
-        f'{STEPS} control periods',
-        patience=120.0,
-    )
-    states = [m for m in rig.states if field(m, 'state') == pushing][: STEPS + 1]
+    states = pushed(rig, STEPS)
     theta = np.array([field(m, 'theta') for m in states])
     phi = np.array([field(m, 'phi') for m in states])
     expected = experiment(replace(ideal, tip_turns=True), PushLaw(0.05, 5.0, theta_desired), STEPS)
@@ -51,13 +57,7 @@ def test_loop_on_mujoco_goes_along_the_trajectory_without_clocks_and_processes(r
     from tactile_push.simulation.mujoco_rig import MujocoRig
 
     rig.start('block', simulator='mujoco_plant')
-    pushing = float(STATES.index('pushing'))
-    rig.observer.wait_for(
-        lambda: sum(field(m, 'state') == pushing for m in rig.states) > FEW_STEPS,
-        f'{FEW_STEPS} control periods',
-        patience=120.0,
-    )
-    states = [m for m in rig.states if field(m, 'state') == pushing][: FEW_STEPS + 1]
+    states = pushed(rig, FEW_STEPS)
     theta = np.array([field(m, 'theta') for m in states])
     same = MujocoRig(*mujoco_config(MujocoPlantParameters(mu_c=0.5)))
     control = PushControl(PushLaw(0.05, 5.0, math.radians(-10.0)), 0.005, 0.1)
