@@ -36,7 +36,7 @@ _LOGGER = logging.getLogger('tactile_push.bags')
 class Topic:
     """A topic of a bag."""
 
-    name: str  #: full name
+    name: str  #: full name, with a leading slash even if the bag leaves it out
     type_name: str  #: message type, such as ``'sensor_msgs/msg/JointState'``
     definition: str  #: the type's definition with those of all its parts
     qos: tuple[dict, ...]  #: each publisher's quality of service, in the words of rosbag2
@@ -207,12 +207,13 @@ class BagReader:
         contents = file.contents
         for number, channel in contents.channels.items():
             schema = contents.schemas.get(channel.schema_id)
+            name = f'/{channel.topic.removeprefix("/")}'  # not all writers write the slash
             type_name = '' if schema is None else schema.name
-            topic = self.topics.get(channel.topic)
+            topic = self.topics.get(name)
             if topic is None:
-                self._sources[channel.topic] = (channel, schema)
-                self.topics[channel.topic] = Topic(
-                    channel.topic,
+                self._sources[name] = (channel, schema)
+                self.topics[name] = Topic(
+                    name,
                     type_name,
                     '' if schema is None else schema.data.decode(errors='replace'),
                     self._qos(channel),
@@ -221,13 +222,13 @@ class BagReader:
                 )
             elif topic.type_name != type_name:
                 self._warn(
-                    f'{file.path}: {contents.counts[number]} messages of {channel.topic} are left '
+                    f'{file.path}: {contents.counts[number]} messages of {name} are left '
                     f'out: expected type {topic.type_name}, got {type_name}'
                 )
                 continue
-            names[number] = channel.topic
-            self.counts.setdefault(channel.topic, 0)
-            self.counts[channel.topic] += contents.counts[number]
+            names[number] = name
+            self.counts.setdefault(name, 0)
+            self.counts[name] += contents.counts[number]
         return names
 
     def _qos(self, channel: Channel) -> tuple[dict, ...]:

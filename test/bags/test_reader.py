@@ -218,6 +218,27 @@ def test_topic_of_two_types_keeps_the_first(tmp_path):
     assert '1 messages of /clock' in line and 'std_msgs/msg/String' in line and CLOCK in line
 
 
+NAMES = [['/clock'], ['clock'], ['clock', '/clock'], ['left/clock'], ['a/b/clock', 'clock']]
+
+
+@pytest.mark.parametrize('names', NAMES, ids=' and '.join)
+@pytest.mark.parametrize('finish', [True, False])
+def test_topic_has_a_leading_slash_whether_the_bag_writes_it_or_not(tmp_path, names, finish):
+    written = [(name, time, time, clock_message(time)) for time in range(4) for name in names]
+    (tmp_path / 'file.mcap').write_bytes(mcap_bytes(written, finish=finish, chunk_size=1))
+    warnings = []
+    with BagReader(tmp_path / 'file.mcap', warnings.append) as reader:
+        full = {f'/{name.lstrip("/")}' for name in names}
+        assert set(reader.topics) == {topic.name for topic in reader.topics.values()} == full
+        assert reader.counts == {name: 4 * len(names) // len(full) for name in full}
+        read = list(reader.messages(full))
+        assert [(f'/{n.lstrip("/")}', *rest) for n, *rest in written] == as_tuples(read)
+        assert [reader.decode(message).clock.nanosec for message in read] == [
+            time for _, time, *_ in written
+        ]
+    assert len(warnings) == (not finish)
+
+
 ENCODINGS = [('json', 'jsonschema'), ('cdr', 'ros2idl'), ('cdr', 'omgidl'), ('protobuf', 'ros2msg')]
 
 

@@ -292,6 +292,14 @@ def test_late_subscriber_of_a_latched_topic_gets_what_was_played(graph, tmp_path
     assert graph.numbers() == due(0, 1)
 
 
+@pytest.mark.parametrize('named', [(), ('number',), ('/number',)])
+def test_topic_without_a_leading_slash_is_played_as_with_one(graph, tmp_path, named):
+    graph.listen(Int64, '/number')
+    graph.play(part_of(write(tmp_path / 'bag', [0, 1], topic='number'), named))
+    graph.spin_to_the_end()
+    assert graph.numbers() == due(0, 1)
+
+
 def test_topic_gets_a_new_name(graph, tmp_path):
     graph.listen(Int64, '/left/number')
     bag = write(tmp_path / 'bag', [0])

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from support.bag_copies import without
+from support.bag_copies import copied, without
 from support.sensed_bag import DATA, TICKS, said_by_a_node, with_sensing
 from support.states import read_states
 from tactile_push.bags import BagError, BagReader, BagWriter
@@ -51,6 +51,13 @@ def test_all_control_periods_are_told_and_nothing_is_amiss(block):
     assert block.contradictions == []
     assert block.forgotten == []
     assert not block.object_told
+
+
+def test_topics_without_a_leading_slash_tell_the_same(block, tmp_path):
+    bag = copied(BLOCK, tmp_path / 'bag', rename=lambda topic: topic[1:])
+    (figures,) = run(bag, sensing={'edge': 0})
+    assert (figures.values, figures.at) == (block.values, block.at)
+    assert (figures.compared, figures.inside) == (block.compared, block.inside)
 
 
 def test_stops_make_it_forget(tmp_path):

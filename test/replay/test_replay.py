@@ -102,6 +102,16 @@ def test_two_fingers_are_two(tmp_path):
     assert len(fingers['left'].ticks) > 100
 
 
+def test_topics_without_a_leading_slash_are_replayed_and_compared_as_with_one(tmp_path):
+    bag = copied(DATA / 'block', tmp_path / 'bag', rename=lambda topic: topic[1:])
+    (comparison,) = replayed(bag, out=tmp_path / 'out')
+    assert len(comparison.ticks) > 100
+    assert not comparison.different()
+    for one, other in ((bag, DATA / 'block'), (DATA / 'block', tmp_path / 'out')):
+        assert main(['diff', str(one), str(other)]) == 0
+        assert main(['diff', str(one), str(other), '--topics', 'contact', '/tactile']) == 0
+
+
 def test_source_is_not_touched(tmp_path):
     bag = copied(DATA / 'stops', tmp_path / 'bag')
     before = {f.name: hashlib.sha256(f.read_bytes()).digest() for f in bag.iterdir()}

@@ -152,6 +152,14 @@ def test_several_fingers_and_what_is_known_of_them(tmp_path):
     assert info.parameters['push_controller']['kp'] == 0.05
 
 
+def test_topics_without_a_leading_slash_are_known_as_with_one(tmp_path):
+    fingers = {STATE: pushes(math.radians(-10.0)), f'/left{STATE}': pushes(0.0, settled=110)}
+    bare = {name[1:]: content for name, content in fingers.items()}
+    info = info_of(write_file(tmp_path / 'bare.mcap', bare, NOTES))
+    expected = info_of(write_file(tmp_path / 'two.mcap', fingers, NOTES))
+    assert (info.topics, info.pushes) == (expected.topics, expected.pushes)
+
+
 @pytest.mark.parametrize('edge', [1, -1])
 def test_d_of_a_finger_without_a_simulator_follows_from_the_outline_of_active_sensing(
     tmp_path, edge

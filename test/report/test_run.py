@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from support.bag_copies import copied
 from support.pushed_bag import (
     DURATION,
     HOSTILE,
@@ -27,6 +28,17 @@ from support.pushed_bag import (
 from tactile_push.bags import BagReader
 from tactile_push.estimation import CONTRADICTIONS
 from tactile_push.report import messages_shown, read_run
+
+
+@pytest.mark.parametrize('namespace', ['', '/left'])
+def test_topics_without_a_leading_slash_are_reported_as_with_one(tmp_path, namespace):
+    with_one = write_bag(tmp_path / 'a', namespace, parameters={})
+    without = copied(with_one, tmp_path / 'b', rename=lambda topic: topic[1:])
+    run, expected = run_of(without), run_of(with_one)
+    assert set(run.series) == set(expected.series)
+    assert run.series['phi'].values.tolist() == expected.series['phi'].values.tolist()
+    assert [e.text for e in run.episodes] == [e.text for e in expected.episodes]
+    assert (run.tables, run.warnings) == (expected.tables, [])
 
 
 def test_series_are_those_of_the_bag_in_si_units(run):
