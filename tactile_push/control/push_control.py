@@ -129,7 +129,7 @@ class PushControl:
         self.period = period
         self.limits = limits or Limits()
         self.steadying = steadying or Steadying()
-        self._finger_was_known = False
+        self._finger_due = math.inf  # when its position has to be known [s]
         self.activate(0.0)
         self.state = INACTIVE
 
@@ -169,7 +169,7 @@ class PushControl:
         self.locate_finger(tick.finger_x, now - tick.finger_age, tick.psi)
         self._finger.fresh(now, math.inf)
         self._pole.fresh(now, math.inf)
-        self._finger_was_known |= self._finger.known
+        self._note_finger()
         self.state = PUSHING
         self._ticks, self._ticks_lost = tick.ticks, tick.ticks_lost
         self._last_tick = now
@@ -218,6 +218,18 @@ class PushControl:
         if math.isfinite(x):
             self._finger.take(x, stamp)
             self._pole.take(psi, stamp)
+
+    def expect_finger(self, due: float) -> None:
+        """Take note that the finger's position has to be known from a time on.
+
+        It has to be anyhow once it was known.
+
+        Parameters
+        ----------
+        due : float
+            From then on the finger stops without it [s]. The earliest time counts.
+        """
+        self._finger_due = min(self._finger_due, due)
 
     def notice_another_command(self) -> None:
         """Take note that somebody else commands the finger: it cannot serve two."""
@@ -268,7 +280,7 @@ class PushControl:
         felt = self._contact.fresh(now, self.limits.contact_timeout)
         self._finger.fresh(now, self.limits.joint_state_timeout)
         self._pole.fresh(now, self.limits.joint_state_timeout)
-        self._finger_was_known |= self._finger.known
+        self._note_finger()
         if self._implausible:
             self._implausible = False
             self._implausible_at = now
@@ -328,9 +340,14 @@ class PushControl:
             return CONTACT_SILENT
         # Not even a new start lets go of a finger that could be watched and cannot be any more.
         known = abs(now - self._finger.since) <= limits.joint_state_timeout
-        if self._finger_was_known and not known:
+        if now > self._finger_due and not known:
             return FINGER_UNKNOWN
         return NO_REASON
+
+    def _note_finger(self) -> None:
+        """Expect from now on that the finger's position is known, if it is."""
+        if self._finger.known:
+            self._finger_due = -math.inf
 
     def _rest(self, reason: str) -> None:
         """Hold the finger still; the law will start over."""
@@ -372,6 +389,8 @@ class PushControl:
         self.law.reset()
         self._end_steadying()
         self._since = now
+        if self._finger_due < math.inf:
+            self._finger_due = -math.inf  # it has been waited for
         self._contact = Newest()
         self._finger = Newest()
         self._pole = Newest()

@@ -36,6 +36,7 @@ NO_FAULT = {
     'rejected: no contact',
     'rejected: not newer',
 }
+FOR_JOINTS = ('no joint state', 'stale joint state')  # refusals
 
 
 class ContactGeometry(Node):
@@ -117,7 +118,9 @@ class ContactGeometry(Node):
         if time.monotonic() - self._heard > PATIENCE:
             return Health(ERROR, 'no readings', values)
         if self._heard - self._useful > PATIENCE:
-            return Health(ERROR, f'readings refused: {self._refusal}', values)
+            trouble = self._geometry.joints.trouble if self._refusal in FOR_JOINTS else ''
+            why = f': {trouble}' if trouble else ''
+            return Health(ERROR, f'readings refused: {self._refusal}{why}', values)
         if not self._feels:
             return Health(WARN, 'no contact yet', values)
         rates = self._diagnostics.rates

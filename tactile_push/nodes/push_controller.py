@@ -18,7 +18,7 @@ from rclpy.timer import Timer
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from tactile_push.control import HELD, PUSHING, STOPPED, WAITING, Tick
+from tactile_push.control import FINGER_UNKNOWN, HELD, PUSHING, STOPPED, WAITING, Tick
 from tactile_push.interface import COMMAND, CONTACT, CONTROLLER_STATE, JOINT_STATES, RESUME
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.managed import ManagedNode
@@ -43,6 +43,7 @@ COMMANDS = (
     QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT),
 )
 STANDSTILL = 1.0  # without a tick for so long after a period, time stands still [s]; picked
+NO_LIMIT = 'use_joint_states: false does without, and keeps no limit of the workspace'
 REMEMBERED = 32  # own commands that may still be on their way back here: 3 s of the paper's rate
 
 
@@ -93,8 +94,13 @@ class PushController(ManagedNode):
                 JointState, CONTROLLER_STATE, PUBLISHED
             ),
         }
+        joint_states = (
+            [self.create_subscription(JointState, JOINT_STATES, self._on_joint_states, SENSOR_DATA)]
+            if self._settings.use_joint_states
+            else []
+        )
         self._subscriptions_made = (
-            self.create_subscription(JointState, JOINT_STATES, self._on_joint_states, SENSOR_DATA),
+            *joint_states,
             self.create_subscription(PoseStamped, CONTACT, self._on_contact, SENSOR_DATA),
             *(
                 self.create_subscription(TwistStamped, COMMAND, self._on_command, qos)
@@ -187,8 +193,8 @@ class PushController(ManagedNode):
         self._counted['contacts'] += 1
 
     def _on_joint_states(self, message: JointState) -> None:
-        if not self._steps.joint_states(stamp_of(message), message.name, message.position):
-            self._counted['joint states without a number'] += 1
+        stamp = stamp_of(message)
+        self._counted[self._steps.joint_states(stamp, message.name, message.position)] += 1
 
     def _on_command(self, message: TwistStamped) -> None:
         if (*stamp_of(message), message.twist.linear.x) not in self._sent:
@@ -277,8 +283,12 @@ class PushController(ManagedNode):
             'phi saturated': tick.saturated,
             'velocity limited': tick.limited,
         }
+        trouble = ''
+        if tick.state == WAITING or tick.stop_reason == FINGER_UNKNOWN:
+            trouble = self._steps.trouble
         if tick.state == STOPPED:
-            return Health(ERROR, _words(tick), values)
+            hint = f': {trouble}; {NO_LIMIT}' if trouble else ''
+            return Health(ERROR, _words(tick) + hint, values)
         if time.monotonic() - self._ticked_at > STANDSTILL + self._control.period:
             return Health(WARN, f'{_words(tick)}, but time stands still', values)
         others = self.count_publishers(COMMAND) - 1
@@ -286,6 +296,8 @@ class PushController(ManagedNode):
         if outlook.soon:
             words = f'{_words(tick)}, but drifts to the end of the workspace'
             return Health(WARN, words, values)
+        if trouble:
+            return Health(WARN, f'{_words(tick)}, but {trouble}', values)
         rates = self._diagnostics.rates
         lately = rates['ticks lost'] + rates['commands of another node']
         if tick.state == WAITING or tick.saturated or tick.limited or lately or others > 0:

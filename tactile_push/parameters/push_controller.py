@@ -51,7 +51,11 @@ class PushControllerParameters(NodeParameters):
         'where the finger stops moving right, x of its disk in finger_base',
         -10.0, 10.0, read_only=True)
     joint_state_timeout: float = parameter(LIMITS.joint_state_timeout, 's',
-        'the finger stops after this long without joint_states, if there ever were any', 0.01, 10.0)
+        "the finger stops after this long without the finger's position, if there ever were "
+        'joint_states, of whatever joints', 0.01, 10.0)
+    use_joint_states: bool = parameter(True, '',
+        'keep the finger in its workspace, and stop it when its position is unknown; otherwise '
+        'joint_states are ignored and no limit of the workspace is kept', read_only=True)
     joint_names: list[str] = parameter(shared.JOINT_NAMES, '',
         'the two moving joints in joint_states, and a wrist that holds the tip straight if there '
         'is one', read_only=True)

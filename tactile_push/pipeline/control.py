@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator, Sequence
 
 from tactile_push.control import UNKNOWN, Drift, PushControl, Tick, plausible, tick_values
-from tactile_push.interface import COMMAND, CONTROLLER_STATE, FINGER_DISK
+from tactile_push.interface import COMMAND, CONTROLLER_STATE, FINGER_DISK, JOINT_STATES
 from tactile_push.pipeline.messages import Output, command_fields, joint_state_fields
-from tactile_push.pipeline.named import by_name
+from tactile_push.pipeline.named import OTHER_JOINTS, REFUSED, TAKEN, Joints
 from tactile_push.pipeline.orientation import yaw_of_quaternion
 from tactile_push.pipeline.stamps import Seconds, Stamp
 from tactile_push.tactile import PlanarFinger
@@ -42,19 +42,35 @@ class Control:
     ) -> None:
         self.push = push
         self._finger = finger
-        self._joint_names = joint_names
+        self._joints = Joints(joint_names)
         self._seconds = seconds
+        self._located_at = math.nan  # stamp of the newest joint states, nan before the first [s]
+        self._heard_joints = False
         self._drift = Drift(
             *(push.steadying.l, push.steadying.r, push.belt_speed, push.period),
             *(push.limits.workspace_min, push.limits.workspace_max),
         )
         self.turning = math.nan
         self.outlook = UNKNOWN
+        self._now = math.nan  # of the last tick [s]
 
     @property
     def steadies(self) -> bool:
         """Whether steadying can hold an object where the finger is."""
         return self.push.steadying.holds(self.turning)
+
+    @property
+    def trouble(self) -> str:
+        """Why joint states do not tell where the finger is, as of the last tick.
+
+        It is empty if they do, if they fell silent, and if there were none.
+        """
+        if not self._heard_joints or self._joints.trouble:
+            return self._joints.trouble if self._heard_joints else ''
+        age = self._now - self._located_at
+        if abs(age) <= self.push.limits.joint_state_timeout:
+            return ''
+        return f'{JOINT_STATES}: stamped {abs(age):.1f} s {"ago" if age > 0.0 else "ahead"}'
 
     def contact(self, stamp: Stamp, theta: float) -> bool:
         """Take a contact.
@@ -72,8 +88,10 @@ class Control:
         self.push.feel(theta, self._seconds(*stamp))
         return plausible(theta)
 
-    def joint_states(self, stamp: Stamp, names: Sequence[str], positions: Sequence[float]) -> bool:
-        """Take a message of `joint_states`; one without both joints is ignored.
+    def joint_states(self, stamp: Stamp, names: Sequence[str], positions: Sequence[float]) -> str:
+        """Take a message of `joint_states`.
+
+        Once there was any, of whatever joints, the finger's position has to become known.
 
         Parameters
         ----------
@@ -82,21 +100,21 @@ class Control:
 
         Returns
         -------
-        bool
-            Whether the joints have angles, as far as the message is about them.
+        str
+            What the message was: `TAKEN`, `REFUSED` or `OTHER_JOINTS`.
         """
-        angles = by_name(names, positions)
-        try:
-            joints = [angles[name] for name in self._joint_names]
-            x, turning = self._finger.forward(*joints[:2]).x, self._finger.turning(*joints[:2])
-        except KeyError:
-            return True  # joint states of another mechanism
-        except ValueError:
-            return False
+        self._heard_joints = True
+        joints = self._joints.angles(names, positions)
+        if joints is None:
+            return OTHER_JOINTS
+        if not all(map(math.isfinite, joints[:2])):
+            return REFUSED
+        x, turning = self._finger.forward(*joints[:2]).x, self._finger.turning(*joints[:2])
         psi = pole_angle(self._finger.mount_angle, joints)
-        self.push.locate_finger(x, self._seconds(*stamp), psi)
+        self._located_at = self._seconds(*stamp)
+        self.push.locate_finger(x, self._located_at, psi)
         self.turning = turning if len(joints) == 2 else 0.0
-        return True
+        return TAKEN
 
     def tick(self, stamp: Stamp, elapsed: float = math.nan) -> Tick:
         """Decide on the command of a control period.
@@ -113,7 +131,11 @@ class Control:
         Tick
             What to command and why.
         """
-        tick = self.push.tick(self._seconds(*stamp), elapsed)
+        now, timeout = self._seconds(*stamp), self.push.limits.joint_state_timeout
+        self._now = now
+        if self._heard_joints:
+            self.push.expect_finger(now + timeout)
+        tick = self.push.tick(now, elapsed)
         self.outlook = self._drift.follow(tick, self.push.law.aim, self.turning)
         return tick
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from tactile_push.interface import CONTACT, GEOMETRY_STATE
 from tactile_push.pipeline.messages import Output, joint_state_fields, pose_fields
-from tactile_push.pipeline.named import by_name
+from tactile_push.pipeline.named import OTHER_JOINTS, REFUSED, TAKEN, Joints, by_name
 from tactile_push.pipeline.stamps import Seconds, Stamp
 from tactile_push.tactile import (
     NO_CONTACT,
@@ -19,9 +19,6 @@ from tactile_push.tactile import (
     reading_values,
 )
 
-# What a joint state was: taken, with numbers of no use, without a position of each joint.
-TAKEN, REFUSED = 'joint states', 'joint states refused'
-OTHER_JOINTS = 'joint states of other joints'
 UNREADABLE, NEGATIVE_STAMP = 'no azimuth and elevation', 'negative stamp'
 
 
@@ -53,11 +50,16 @@ class Geometry:
         Finds contacts, and the joints whose angles add up to the direction of the finger tip.
     seconds : callable
         Returns the time [s] of a stamp.
+
+    Attributes
+    ----------
+    joints : Joints
+        What was found in the joint states.
     """
 
     def __init__(self, finder: ContactFinder, joint_names: Sequence[str], seconds: Seconds) -> None:
         self.finder = finder
-        self._joint_names = joint_names
+        self.joints = Joints(joint_names)
         self._seconds = seconds
 
     def joint_states(self, stamp: Stamp, names: Sequence[str], positions: Sequence[float]) -> str:
@@ -73,12 +75,10 @@ class Geometry:
         str
             What the message was: `TAKEN`, `REFUSED` or `OTHER_JOINTS`.
         """
-        angles = by_name(names, positions)
-        try:
-            joints = [angles[name] for name in self._joint_names]
-        except KeyError:
+        angles = self.joints.angles(names, positions)
+        if angles is None:
             return OTHER_JOINTS
-        return TAKEN if self.finder.joints(self._seconds(*stamp), joints) else REFUSED
+        return TAKEN if self.finder.joints(self._seconds(*stamp), angles) else REFUSED
 
     def tactile(
         self,

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 from tactile_push.control import (
     ANOTHER_COMMAND,
     CLOCK_JUMPED,
+    FINGER_UNKNOWN,
     HELD,
     INACTIVE,
     PUSHING,
@@ -163,6 +164,8 @@ class ReplayedController:
         newest = now - tick.silence if math.isfinite(tick.theta) else -math.inf
         for contact in self._take_contacts(newest, recorded.log_time):
             push.feel(contact.theta, contact.stamp)
+        if tick.stop_reason == FINGER_UNKNOWN:
+            push.expect_finger(-math.inf)
         age = tick.finger_age if math.isfinite(tick.finger_age) else 0.0
         push.locate_finger(tick.finger_x, now - age, tick.psi)
 

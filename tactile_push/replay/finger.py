@@ -102,7 +102,7 @@ class Finger:
         else:
             self.handlers[TACTILE] = partial(self._take_reading, geometry)
             joints.append(geometry.step.joint_states)
-        if isinstance(self._controller, OwnTicks):
+        if isinstance(self._controller, OwnTicks) and self._controller.uses_joint_states:
             joints.append(self._controller.step.joint_states)
         if joints:
             self.handlers[JOINT_STATES] = partial(self._take_joint_states, joints)

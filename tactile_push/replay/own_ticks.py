@@ -22,6 +22,7 @@ class OwnTicks:
         self._seconds = partial(seconds_since, epoch)
         push, finger = make_control(values), make_finger(values)
         self.step = Control(push, finger, values.joint_names, self._seconds)
+        self.uses_joint_states = values.use_joint_states
         self._begin: int | None = None  # of the first period [ns]
         self._ticks = 0
 

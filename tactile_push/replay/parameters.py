@@ -27,10 +27,10 @@ KNOWN_TO = {'belt_speed': PUSH_CONTROLLER, 'finger_radius': CONTACT_GEOMETRY}
 LINKS = ('proximal_length', 'distal_length', 'mount_angle')
 # Parameters whose effect is in the node's recorded state: when it ticked, where the finger was.
 RECORDED_EFFECT = {
-    CONTACT_GEOMETRY: {'joint_names'},
+    CONTACT_GEOMETRY: {'joint_names', 'use_joint_states'},
     PUSH_CONTROLLER: {
-        *('control_rate', 'joint_names', 'steadying_max', 'edge_distance', 'finger_radius'),
-        *LINKS,
+        *('control_rate', 'joint_names', 'use_joint_states', *LINKS),
+        *('steadying_max', 'edge_distance', 'finger_radius'),
     },
 }
 OF_EVERY_NODE = 'use_sim_time'  # without effect here: all times are the bag's

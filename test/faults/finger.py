@@ -69,8 +69,8 @@ class Finger(Rig):
         self._desired = -DESIRED
         self.diagnostics = observer.hear(DiagnosticArray, '/diagnostics')
 
-    def begin(self, node: str) -> None:
-        """Start one of its nodes."""
+    def begin(self, node: str, **more: Any) -> None:
+        """Start one of its nodes, with more parameters."""
         parameters: dict[str, Any] = {'use_sim_time': True} if self._setup.own_clock else {}
         arguments: tuple[str, ...] = ()
         if node == 'sim_plant':
@@ -83,6 +83,7 @@ class Finger(Rig):
         elif node == 'push_controller':
             parameters['autostart'] = False
             parameters |= dict(self._setup.controller)
+        parameters |= more
         self.start_node(node, parameters, arguments)
 
     def activate(self) -> None:

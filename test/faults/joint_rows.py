@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 from sensor_msgs.msg import JointState
 
-from tactile_push.nodes.ros.diagnostics import WARN
+from tactile_push.nodes.ros.diagnostics import ERROR, WARN
 
 from .bench import Bench, expect
 from .finger import Finger
@@ -89,6 +89,38 @@ def joint_states_of_others(bench: Bench) -> None:
 
     _relay(bench.finger).alter = rename
     _stops_and_goes_on(bench)
+
+
+@fault('joint states of one joint each', SILENT, setup=RELAYED)
+def joint_states_of_one_joint_each(bench: Bench) -> None:
+    """Finger position unknown, or contact silent; pushes on."""
+    joints = itertools.cycle((0, 1))
+
+    def split(message: JointState) -> JointState:
+        joint = next(joints)
+        message.name, message.position = [message.name[joint]], [message.position[joint]]
+        return message
+
+    _relay(bench.finger).alter = split
+    _stops_and_goes_on(bench)
+
+
+@fault('joint names misspelt', SILENT)
+def joint_names_misspelt(bench: Bench) -> None:
+    """Finger position unknown, and says which names; pushes with the right ones."""
+    finger = bench.finger
+    finger.kill('push_controller')
+    finger.begin('push_controller', joint_names=['proximal_joint', 'distal_jiont'])
+    finger.activate()
+    bench.stopped(time.monotonic())
+    finger.expect_reason('finger position unknown')
+    finger.expect_level('push_controller', ERROR)
+    words = finger.status('push_controller').message
+    expect('got no distal_jiont, but proximal_joint, distal_joint' in words, words)
+    finger.kill('push_controller')
+    finger.begin('push_controller')
+    finger.activate()
+    finger.push(10.0)
 
 
 @fault('joint states without positions', SILENT, setup=RELAYED)

@@ -337,3 +337,31 @@ def test_why_a_reading_was_refused_is_told(bench):
     ]
     assert all(math.isnan(state['theta']) for state in told(bench))
     assert [math.isnan(state['joint_angle']) for state in told(bench)] == [True, False, True]
+
+
+@pytest.mark.parametrize(
+    ('names', 'words'),
+    [
+        (
+            ['left_proximal_joint', 'left_distal_joint'],
+            'got no proximal_joint, distal_joint, but left',
+        ),
+        (
+            ['proximal_joint', 'distal_jiont'],
+            'got no distal_joint, but proximal_joint, distal_jiont',
+        ),
+        (['proximal_joint'], 'got no distal_joint, but proximal_joint'),
+        (
+            ['proximal_joint', 'distal_joint', 'distal_joint'],
+            'distal_joint is named more than once',
+        ),
+    ],
+)
+def test_error_names_the_joints_that_are_missing_and_those_that_came(bench, names, words):
+    for _ in range(6):
+        bench.turn(names, [0.1] * len(names))
+        read_on(bench, joints=False)
+    level, message = bench.health
+    assert level == ERROR
+    assert message.startswith('readings refused: no joint state: joint')
+    assert words in message

@@ -14,6 +14,7 @@ from std_srvs.srv import Trigger
 from support.node_bench import declared_topics
 from tactile_push.control import (
     ANOTHER_COMMAND,
+    FINGER_UNKNOWN,
     PUSHING,
     STATES,
     STOP_REASONS,
@@ -217,3 +218,36 @@ def test_an_angle_that_could_be_trimmed_too_far_is_refused_while_it_runs(bench):
     (result,) = node.set_parameters([RosParameter('steadying_max', value=0.2)])
     assert result.successful
     assert node._control.steadying.bound == 0.2
+
+
+WRONG_NAMES = {'joint_names': ['proximal_joint', 'distal_jiont']}
+MISSING = (
+    'joint_names: expected proximal_joint, distal_jiont in joint_states, '
+    'got no distal_jiont, but proximal_joint, distal_joint'
+)
+
+
+def test_joint_names_that_never_come_are_told_before_the_first_contact_and_stop_the_finger(bench):
+    bench.start(PushController, **RATE, **WRONG_NAMES)
+    bench.hear(JointState, CONTROLLER_STATE)
+    place = at(bench, bench.publisher(JointState, JOINT_STATES), 0.0)
+    bench.until(lambda: MISSING in bench.health[1], place)
+    assert bench.health == (WARN, f'waiting for contact, but {MISSING}')
+    touch = feel(bench, bench.publisher(PoseStamped, CONTACT), 0.1)
+    bench.until(lambda: told(bench, 'state') == STOPPED, lambda: (place(), touch()))
+    assert told(bench, 'stop_reason') == FINGER_UNKNOWN
+    level, words = bench.health
+    assert level == ERROR
+    assert words.startswith(f'stopped: finger position unknown: {MISSING}; use_joint_states: false')
+
+
+def test_who_says_that_no_limit_is_wanted_pushes_whatever_the_joints_are_called(bench):
+    bench.start(PushController, **RATE, **WRONG_NAMES, use_joint_states=False)
+    bench.hear(JointState, CONTROLLER_STATE)
+    touch = feel(bench, bench.publisher(PoseStamped, CONTACT), 0.1)
+    assert JOINT_STATES not in bench.topics()[0]
+    bench.until(lambda: told(bench, 'state') == PUSHING, touch)
+    pushed = len(bench.heard[CONTROLLER_STATE])
+    bench.until(lambda: len(bench.heard[CONTROLLER_STATE]) > pushed + 25, touch)
+    assert told(bench, 'state') == PUSHING
+    assert bench.health == (OK, 'pushing')

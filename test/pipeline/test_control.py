@@ -6,10 +6,11 @@ import math
 
 import pytest
 
-from tactile_push.control import NO_REASON, PUSHING, STATES, WAITING
+from tactile_push.control import FINGER_UNKNOWN, NO_REASON, PUSHING, STATES, WAITING
 from tactile_push.interface import COMMAND, CONTROLLER_STATE, FINGER_BASE, FINGER_DISK
 from tactile_push.parameters.push_controller import PushControllerParameters, make_control
 from tactile_push.pipeline import Control, edge_angle
+from tactile_push.pipeline.named import OTHER_JOINTS, REFUSED, TAKEN
 from tactile_push.tactile import PlanarFinger
 
 JOINTS = ['proximal_joint', 'distal_joint']
@@ -43,7 +44,7 @@ def test_contact_is_as_old_as_its_stamp(control):
 
 
 def test_joints_say_where_the_finger_is_across_the_belt(control):
-    assert control.joint_states((1, 0), ['other', *JOINTS], [7.0, *ANGLES])
+    assert control.joint_states((1, 0), ['other', *JOINTS], [7.0, *ANGLES]) == TAKEN
     tick = control.tick((1, 250_000_000))
     assert tick.finger_x == pytest.approx(FINGER_X)
     assert tick.psi == pytest.approx(math.pi / 2.0)
@@ -51,13 +52,77 @@ def test_joints_say_where_the_finger_is_across_the_belt(control):
 
 
 def test_joints_of_another_mechanism_say_nothing(control):
-    assert control.joint_states((1, 0), ['other', JOINTS[0]], ANGLES)
+    assert control.joint_states((1, 0), ['other', JOINTS[0]], ANGLES) == OTHER_JOINTS
     assert math.isnan(control.tick((1, 0)).finger_x)
 
 
+def pushing_on(control, times, *messages):
+    """Return the ticks of a finger that feels something and gets joint states in each period."""
+    ticks = []
+    for k in range(times):
+        stamp = (1 + k // 10, k % 10 * 100_000_000)
+        control.contact(stamp, 0.1)
+        for at, names, positions in messages:
+            control.joint_states(at or stamp, names, positions)
+        ticks.append(control.tick(stamp))
+    return ticks
+
+
+@pytest.mark.parametrize(
+    ('messages', 'trouble'),
+    [
+        ([(None, ['left_proximal_joint', 'left_distal_joint'], ANGLES)], 'left_proximal_joint'),
+        ([(None, ['proximal_joint', 'distal_jiont'], ANGLES)], 'got no distal_joint'),
+        ([(None, JOINTS[:1], ANGLES[:1]), (None, JOINTS[1:], ANGLES[1:])], 'in one message'),
+        ([(None, JOINTS, [])], 'has no position'),
+        ([(None, [*JOINTS, *JOINTS], ANGLES * 2)], 'more than once'),
+        ([(None, JOINTS, [math.nan, 0.1])], 'proximal_joint is nan'),
+        ([((0, 0), JOINTS, ANGLES)], 'stamped 2.1 s ago'),
+        ([((10**9, 0), JOINTS, ANGLES)], 's ahead'),
+    ],
+)
+def test_joint_states_that_cannot_be_used_stop_the_finger_after_their_timeout(
+    control, messages, trouble
+):
+    ticks = pushing_on(control, 12, *messages)
+    # Until 0.3 s after the first period they may still become of use: the fifth is 0.4 s after it.
+    expected = [NO_REASON] * 4 + [FINGER_UNKNOWN] * 8
+    if trouble == 'stamped 2.1 s ago':  # the finger's place was known once, too long ago
+        expected = [FINGER_UNKNOWN] * 12
+    assert [tick.stop_reason for tick in ticks] == expected
+    assert [tick.v_x for tick in ticks[4:]] == [0.0] * 8
+    assert trouble in control.trouble
+    # As soon as they can be used the finger goes on, whatever other mechanisms say meanwhile.
+    control.joint_states((2, 200_000_000), JOINTS, ANGLES)
+    control.joint_states((2, 200_000_000), ['wheel'], [1.0])
+    control.contact((2, 200_000_000), 0.1)
+    assert control.tick((2, 200_000_000)).stop_reason == NO_REASON
+
+
+def test_without_any_joint_states_the_finger_pushes(control):
+    ticks = pushing_on(control, 12)
+    assert {tick.stop_reason for tick in ticks} == {NO_REASON}
+    assert control.trouble == ''
+
+
+def test_joint_states_of_others_between_those_of_the_finger_do_no_harm(control):
+    others = (None, ['wheel'], [1.0])
+    ticks = pushing_on(control, 12, others, (None, JOINTS, ANGLES), others)
+    assert {tick.stop_reason for tick in ticks} == {NO_REASON}
+
+
+def test_a_new_start_grants_no_more_time_without_a_place(control):
+    lost = (None, ['left_proximal_joint', 'left_distal_joint'], ANGLES)
+    pushing_on(control, 12, lost)
+    control.push.deactivate()
+    control.push.activate(1.0)
+    assert pushing_on(control, 2, lost)[-1].stop_reason == FINGER_UNKNOWN
+
+
 def test_joint_angles_that_are_no_numbers_are_told_and_not_taken(control):
-    assert control.joint_states((1, 0), JOINTS, ANGLES)
-    assert not control.joint_states((2, 0), JOINTS, [math.inf, 0.0])
+    assert control.joint_states((1, 0), JOINTS, ANGLES) == TAKEN
+    assert control.joint_states((2, 0), JOINTS, [math.inf, 0.0]) == REFUSED
+    assert control.joint_states((2, 0), JOINTS, [0.0, math.nan]) == REFUSED
     assert control.tick((2, 0)).finger_age == pytest.approx(1.0)
 
 

@@ -10,10 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tactile_push.bags import BagReader, BagWriter, schema_text
-from tactile_push.control import WAITING, PushLaw
+from tactile_push.control import FINGER_UNKNOWN, NO_REASON, STOP_REASONS, WAITING, PushLaw
 from tactile_push.interface import CONTROLLER_STATE, JOINT_STATE_TYPE, JOINT_STATES, TACTILE
 from tactile_push.pipeline import Control, Geometry, by_name
 from tactile_push.pipeline.messages import joint_state_fields
+from tactile_push.pipeline.named import Joints
 from tactile_push.replay import replay
 from tactile_push.replay.new_bag import encoder
 from tactile_push.simulation import experiment, paper_block
@@ -161,6 +162,34 @@ def test_replay_reads_by_name(topic, odd, tmp_path):
     assert ages[-1] == pytest.approx(-0.05 if joints_known else 0.05, abs=1e-6)
 
 
+@pytest.mark.parametrize(('wanted', 'reason'), [(True, FINGER_UNKNOWN), (False, NO_REASON)])
+def test_replay_stops_as_the_node_does_for_joints_of_other_names(wanted, reason, tmp_path):
+    encode = encoder(JOINT_STATE_TYPE, schema_text(JOINT_STATE_TYPE))
+    with BagWriter(tmp_path / 'bag') as writer:
+        for name in (JOINT_STATES, TACTILE):
+            writer.add_topic(f'/{name}', JOINT_STATE_TYPE)
+        for k in range(20):
+            at = BEGIN * 10**9 + k * 50_000_000
+            values = {JOINT_STATES: dict.fromkeys(('l_one', 'l_two'), 0.1)}
+            values[TACTILE] = dict(zip(ANGLES, (0.0, AHEAD - 0.1), strict=True))
+            for name in (JOINT_STATES, TACTILE):
+                fields = joint_state_fields(divmod(at, 10**9), values[name])
+                writer.write(f'/{name}', encode(fields), at, at)
+    config = tmp_path / 'wanted.yaml'
+    config.write_text(
+        'contact_geometry: {ros__parameters: {use_joint_states: false}}\n'
+        f'push_controller: {{ros__parameters: {{use_joint_states: {str(wanted).lower()}}}}}\n'
+    )
+    with BagReader(tmp_path / 'bag') as reader:
+        replay(reader, config=config, out=tmp_path / 'out')
+    with BagReader(tmp_path / 'out') as reader:
+        states = map(reader.decode, reader.messages([f'/{CONTROLLER_STATE}']))
+        reasons = [by_name(state.name, state.position)['stop_reason'] for state in states]
+    assert len(reasons) == 10
+    assert STOP_REASONS[int(reasons[-1])] == reason
+    assert STOP_REASONS[int(reasons[0])] == NO_REASON
+
+
 @CASES
 @TOPIC
 def test_experiment_reads_by_name(topic, odd, monkeypatch):
@@ -190,3 +219,75 @@ def test_experiment_reads_by_name(topic, odd, monkeypatch):
     run = experiment(paper_block(), PushLaw(0.05, 5.0, 0.0), 3)
     assert run.end == ('done' if odd in USED else WAITING)
     assert math.isfinite(ticks[-1].finger_x) == (odd in USED or topic == TACTILE)
+
+
+def of_joints(*messages):
+    """Return what is wrong after messages of names with positions."""
+    joints = Joints(JOINTS)
+    for names, positions in messages:
+        joints.angles(names, positions)
+    return joints.trouble
+
+
+PREFIXED = ['left_proximal_joint', 'left_distal_joint']
+
+
+@pytest.mark.parametrize(
+    ('messages', 'trouble'),
+    [
+        ([], ''),
+        ([(JOINTS, [0.1, 0.2])], ''),
+        ([(['wheel'], [1.0]), (JOINTS, [0.1, 0.2])], ''),
+        (
+            [(PREFIXED, [0.1, 0.2])],
+            'joint_names: expected proximal_joint, distal_joint in joint_states, '
+            'got no proximal_joint, distal_joint, but left_proximal_joint, left_distal_joint',
+        ),
+        (
+            [(['proximal_joint', 'distaljoint'], [0.1, 0.2])],
+            'joint_names: expected proximal_joint, distal_joint in joint_states, '
+            'got no distal_joint, but proximal_joint, distaljoint',
+        ),
+        (
+            [(JOINTS[:1], [0.1]), (JOINTS[1:], [0.2])],
+            'joint_names: expected proximal_joint, distal_joint in one message of joint_states, '
+            'got each in another',
+        ),
+        (
+            [(JOINTS, [])],
+            'joint_states: proximal_joint has no position, distal_joint has no position',
+        ),
+        ([(JOINTS, [0.1])], 'joint_states: distal_joint has no position'),
+        (
+            [([*JOINTS, JOINTS[0]], [0.1, 0.2, 0.1])],
+            'joint_states: proximal_joint is named more than once',
+        ),
+        ([(JOINTS, [0.1, math.nan])], 'joint_states: distal_joint is nan'),
+        ([([], [])], 'joint_states: no names'),
+        (
+            [(PREFIXED, [0.1, 0.2]), (JOINTS, [math.inf, 0.2])],
+            'joint_states: proximal_joint is inf',
+        ),
+    ],
+)
+def test_trouble_names_what_is_missing_and_what_was_seen(messages, trouble):
+    assert of_joints(*messages) == trouble
+
+
+def test_names_of_others_do_not_fill_memory_or_message():
+    trouble = of_joints(*(([f'{k}' * 100], [0.0]) for k in range(10_000)))
+    assert len(trouble) < 600
+    assert trouble.endswith('...')
+
+
+NUMBERS = st.lists(st.floats(), max_size=4)
+
+
+@given(st.lists(st.tuples(st.lists(st.sampled_from([*JOINTS, 'x', '']), max_size=4), NUMBERS)))
+@settings(derandomize=True, deadline=None)
+def test_there_is_trouble_unless_the_last_message_has_finite_angles_of_all_joints(messages):
+    joints = Joints(JOINTS)
+    for names, positions in messages:
+        angles = joints.angles(names, positions)
+        assert (angles is None) == (not set(JOINTS) <= by_name(names, positions).keys())
+        assert bool(joints.trouble) == (angles is None or not all(map(math.isfinite, angles)))

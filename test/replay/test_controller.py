@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from support.bag_clock import BEGIN, EPOCH, PERIOD, seconds, stamp_of
-from tactile_push.control import tick_values
+from tactile_push.control import FINGER_UNKNOWN, NO_REASON, tick_values
 from tactile_push.parameters.push_controller import PushControllerParameters, make_control
 from tactile_push.replay.controller import ReplayedController
 
@@ -32,6 +32,7 @@ class Live:
         self.now = BEGIN * 10**9 + 123_456_789
         self.steady = 17.0
         self.before = math.nan
+        self.expected = math.inf  # when the finger's position is due, for joint states came [s]
         self.heard = []  # (log time, what, theta, stamp), (log time, what, message)
         self.ticks = []
         self.activate()
@@ -55,6 +56,7 @@ class Live:
         self.steady += 0.1
         elapsed = math.nan if self.simulated else self.steady - self.before
         self.before = self.steady
+        self.control.expect_finger(self.expected)
         self.record(self.control.tick(seconds(self.now), elapsed))
         self.now += PERIOD
 
@@ -99,6 +101,7 @@ EVENTS = st.one_of(
     st.tuples(st.just('contact'), THETA, AGE),
     st.tuples(st.just('contact'), st.just(math.nan), AGE),
     st.tuples(st.just('position'), st.floats(-0.11, 0.11), AGE),
+    st.tuples(st.just('joints of no use')),
     st.tuples(st.just('tick')),
     st.tuples(st.just('tick')),
     st.tuples(st.just('another')),
@@ -121,6 +124,8 @@ def happen(live, events):
         ages = []
         if what == 'position':
             live.position(*how)
+        elif what == 'joints of no use':
+            live.expected = min(live.expected, seconds(live.now) + 0.3)
         elif what == 'another':
             live.control.notice_another_command()
         elif what == 'resume':
@@ -149,6 +154,19 @@ def test_whatever_happened_comes_out_again_to_the_bit(events, simulated, trim):
     # One thing a control period at the most that is no reading.
     happen(live, [step for event in events for step in (event, ('tick',)) if event[0] != 'tick'])
     assert same(replayed(live, steadying_max=trim), live.ticks)
+
+
+def test_a_finger_that_was_never_known_though_joint_states_came_stops_again():
+    live = Live()
+    live.expected = seconds(live.now) + 0.3
+    for k in range(8):
+        live.contact(0.3, 60_000_000)
+        live.tick()
+        if k == 5:
+            live.position(0.01, 10_000_000)
+    reasons = [tick.stop_reason for _, tick in live.ticks]
+    assert reasons == [NO_REASON] * 4 + [FINGER_UNKNOWN] * 2 + [NO_REASON] * 2
+    assert same(replayed(live), live.ticks)
 
 
 def pushing(periods=20, **given):

@@ -206,7 +206,8 @@ def test_joint_states_missing_not_finite_late_and_stopping(
     geometry = Geometry(nodes, observer)
     missing, stale = 'readings refused: no joint state', 'readings refused: stale joint state'
     geometry.wait_for_level(ERROR, missing, geometry.read)
-    geometry.wait_for_level(ERROR, missing, lambda: geometry.read_and_turn(math.nan, 0.0))
+    no_number = f'{missing}: joint_states: proximal_joint is nan'
+    geometry.wait_for_level(ERROR, no_number, lambda: geometry.read_and_turn(math.nan, 0.0))
     assert not geometry.contacts
     geometry.wait_for_level(OK, 'contact', lambda: geometry.read_and_turn(0.1, 0.2))
     observer.wait_for(lambda: geometry.contacts, 'a contact')
