@@ -7,7 +7,7 @@ module imports the standard library alone, so that the build can read it before 
 installed.
 """
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
 
@@ -287,19 +287,29 @@ SERVICES = (
 )
 
 
-def fingers(topics: Iterable[str], having: Collection[str]) -> dict[str, set[str]]:
+def own_name(topic: str) -> str | None:
+    """Return the name in `TOPICS` that the full name of a topic ends with, None if there is none.
+
+    The longest one counts: `ground_truth/object_pose` is not `object_pose`.
+    """
+    if topic in TOPICS and topic[0] == '/':
+        return topic
+    relative = [name for name in TOPICS if name[0] != '/' and topic.endswith(f'/{name}')]
+    return max(relative, key=len, default=None)
+
+
+def fingers(topics: Mapping[str, str], having: Collection[str]) -> dict[str, set[str]]:
     """Return the package's topics of each finger in a bag, by the finger's namespace.
 
-    `topics` are the bag's topics by full name. A finger counts if it has one of the relative names
-    `having`. Namespaces are ``''`` or such as ``'/left'``, in the order of the first such topic.
+    `topics` are the types of the bag's topics by full name. A topic is the package's if its name
+    and its type are. A finger counts if it has one of the relative names `having`. Namespaces are
+    ``''`` or such as ``'/left'``, in the order of the first such topic.
     """
-    relative = sorted((name for name in TOPICS if name[0] != '/'), key=len, reverse=True)
     found: dict[str, set[str]] = {}
     present = []
-    for topic in topics:
-        # The longest name counts: `ground_truth/object_pose` is not `object_pose`.
-        own = next((name for name in relative if topic.endswith(f'/{name}')), None)
-        if own is not None:
+    for topic, type_name in topics.items():
+        own = own_name(topic)
+        if own is not None and own[0] != '/' and type_name == TOPICS[own].type_name:
             namespace = topic.removesuffix(f'/{own}')
             present.append((namespace, own))
             if own in having:

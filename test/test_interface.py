@@ -20,7 +20,9 @@ from tactile_push.interface import (
     CONTACT,
     CONTROLLER_STATE,
     GEOMETRY_STATE,
+    JOINT_STATE_TYPE,
     NODES,
+    POSE_TYPE,
     RECORDED,
     SENSING_STATE,
     TACTILE,
@@ -124,21 +126,23 @@ def test_copies_are_found_and_prose_is_none():
 @pytest.mark.parametrize(
     ('topics', 'having', 'found'),
     [
-        (['/contact', '/tf'], {CONTACT}, {'': {CONTACT}}),
+        ({'/contact': POSE_TYPE, '/tf': ''}, {CONTACT}, {'': {CONTACT}}),
         (
-            ['/left/contact', '/contact', '/left/tactile'],
+            {'/left/contact': POSE_TYPE, '/contact': POSE_TYPE, '/left/tactile': JOINT_STATE_TYPE},
             {CONTACT},
             {'/left': {CONTACT, TACTILE}, '': {CONTACT}},
         ),
-        (['/tactile'], {CONTACT}, {}),
-        (['/a/b/tactile'], TOPICS, {'/a/b': {TACTILE}}),
+        ({'/tactile': JOINT_STATE_TYPE}, {CONTACT}, {}),
+        ({'/a/b/tactile': JOINT_STATE_TYPE}, TOPICS, {'/a/b': {TACTILE}}),
+        ({'/tactile': JOINT_STATE_TYPE, '/contact': JOINT_STATE_TYPE}, TOPICS, {'': {TACTILE}}),
+        ({'/hand/contact': 'std_msgs/msg/Bool', '/tactile': ''}, TOPICS, {}),
         (
-            ['/ground_truth/object_pose', '/contact_geometry/state'],
+            {'/ground_truth/object_pose': POSE_TYPE, '/contact_geometry/state': JOINT_STATE_TYPE},
             TOPICS,
             {'': {'ground_truth/object_pose', GEOMETRY_STATE}},
         ),
-        (['/my_contact', 'contact', '/clock', ''], TOPICS, {}),
-        ([], TOPICS, {}),
+        (dict.fromkeys(['/my_contact', 'contact', '/clock', ''], POSE_TYPE), TOPICS, {}),
+        ({}, TOPICS, {}),
     ],
 )
 def test_fingers_of_a_bag(topics, having, found):

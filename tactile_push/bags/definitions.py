@@ -45,6 +45,15 @@ def schema_text(type_name: str) -> str:
     return _with_parts(type_name, set())
 
 
+def full_type_name(type_name: str) -> str:
+    """Return a type's name with the ``msg`` that some writers leave out; other names as they are.
+
+    ``'sensor_msgs/JointState'`` is ``'sensor_msgs/msg/JointState'``.
+    """
+    match = _TYPE_NAME.fullmatch(type_name)
+    return type_name if match is None else f'{match[1]}/msg/{match[2]}'
+
+
 def _with_parts(type_name: str, seen: set[str]) -> str:
     """Return the definition of a type and of those parts that are not in `seen` yet."""
     package, text = _read_definition(type_name)

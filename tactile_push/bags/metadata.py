@@ -17,6 +17,9 @@ import yaml
 # What rosbag2 gives as the starting time of a bag without messages [ns].
 _NEVER = 2**63 - 1
 
+# Of messages and definitions in ROS 2, in the words of MCAP.
+ROS_ENCODINGS = ('cdr', 'ros2msg')
+
 
 class _Plain:
     """Write equal parts out in full, where YAML would refer from one to the other."""
@@ -67,13 +70,17 @@ class Messages:
 
 @dataclass
 class TopicMetadata:
-    """A topic: its publishers' qualities of service, its type's hash ('' if unknown)."""
+    """A topic: its publishers' qualities of service, its type's hash ('' if unknown).
+
+    `encodings` are those of its messages and of their definition.
+    """
 
     name: str
     type_name: str
     qos: Sequence[Mapping[str, object]]
     type_hash: str
     count: int = 0
+    encodings: tuple[str, str] = ROS_ENCODINGS
 
     def entry(self) -> dict[str, object]:
         """Return the entry of the topic."""
@@ -81,7 +88,7 @@ class TopicMetadata:
             'topic_metadata': {
                 'name': self.name,
                 'type': self.type_name,
-                'serialization_format': 'cdr',
+                'serialization_format': self.encodings[0],
                 'offered_qos_profiles': [dict(profile) for profile in self.qos],
                 'type_description_hash': self.type_hash,
             },

@@ -23,10 +23,12 @@ from tactile_push.bags.bag_files import (
     parse_metadata,
     read_metadata,
 )
+from tactile_push.bags.definitions import full_type_name
 from tactile_push.bags.mcap_contents import Piece
 from tactile_push.bags.mcap_file import McapFile, Message
 from tactile_push.bags.mcap_records import DamageError
 from tactile_push.bags.merge import Batch, in_order
+from tactile_push.bags.metadata import ROS_ENCODINGS
 from tactile_push.bags.sources import BagError
 
 _LOGGER = logging.getLogger('tactile_push.bags')
@@ -37,8 +39,8 @@ class Topic:
     """A topic of a bag."""
 
     name: str  #: full name, with a leading slash even if the bag leaves it out
-    type_name: str  #: message type, such as ``'sensor_msgs/msg/JointState'``
-    definition: str  #: the type's definition with those of all its parts
+    type_name: str  #: message type, such as ``'sensor_msgs/msg/JointState'``; empty if unknown
+    definition: str  #: the type's definition with those of all its parts, as the bag has it
     qos: tuple[dict, ...]  #: each publisher's quality of service, in the words of rosbag2
     type_hash: str  #: hash of the type after REP-2011; empty if the bag does not have it
     encodings: tuple[str, str]  #: of the messages and of the schema, such as ``('cdr', 'ros2msg')``
@@ -46,7 +48,7 @@ class Topic:
     @property
     def decodes(self) -> bool:
         """Whether its messages can be decoded: they are CDR, and the bag has a ROS 2 definition."""
-        return self.encodings == ('cdr', 'ros2msg')
+        return self.encodings == ROS_ENCODINGS
 
     @property
     def in_words(self) -> str:
@@ -83,7 +85,8 @@ class BagReader:
         #: messages by topic, with those of damaged chunks that nobody has read yet
         self.counts: dict[str, int] = {}
         self.notes: dict[str, str] = {}  #: custom data of the bag
-        self._warn = warn
+        #: gets one line for each problem that does not keep the bag from being used
+        self.warn = warn
         self._sources: dict[str, tuple[Channel, Schema | None]] = {}
         self._decoders: dict[str, Callable[[bytes], Any]] = {}
         self._damaged: set[tuple[Path, int]] = set()
@@ -184,7 +187,7 @@ class BagReader:
         except FileNotFoundError:
             return BagMetadata()
         except (OSError, ValueError) as error:
-            self._warn(f'{self.path / "metadata.yaml"}: not used: {_one_line(error)}')
+            self.warn(f'{self.path / "metadata.yaml"}: not used: {_one_line(error)}')
             return BagMetadata()
 
     def _open_files(self, paths: list[Path]) -> list[McapFile]:
@@ -192,13 +195,13 @@ class BagReader:
         errors = []
         for path in paths:
             try:
-                files.append(McapFile(path, self._warn))
+                files.append(McapFile(path, self.warn))
             except BagError as error:
                 errors.append(error)
         if not files:
             raise errors[0]
         for left_out in errors:
-            self._warn(f'{left_out}; left out')
+            self.warn(f'{left_out}; left out')
         return files
 
     def _take_topics(self, file: McapFile) -> dict[int, str]:
@@ -208,22 +211,27 @@ class BagReader:
         for number, channel in contents.channels.items():
             schema = contents.schemas.get(channel.schema_id)
             name = f'/{channel.topic.removeprefix("/")}'  # not all writers write the slash
-            type_name = '' if schema is None else schema.name
+            type_name, text, encodings = '', '', (channel.message_encoding, '')
+            if schema is not None:
+                type_name = full_type_name(schema.name)
+                text = schema.data.decode(errors='surrogateescape')  # it may be binary
+                encodings = (channel.message_encoding, schema.encoding)
             topic = self.topics.get(name)
             if topic is None:
                 self._sources[name] = (channel, schema)
                 self.topics[name] = Topic(
                     name,
                     type_name,
-                    '' if schema is None else schema.data.decode(errors='replace'),
+                    text,
                     self._qos(channel),
                     channel.metadata.get('topic_type_hash', ''),
-                    (channel.message_encoding, '' if schema is None else schema.encoding),
+                    encodings,
                 )
-            elif topic.type_name != type_name:
-                self._warn(
-                    f'{file.path}: {contents.counts[number]} messages of {name} are left '
-                    f'out: expected type {topic.type_name}, got {type_name}'
+            elif (topic.type_name, topic.encodings) != (type_name, encodings):
+                self.warn(
+                    f'{file.path}: {contents.counts[number]} messages of {name} are left out: '
+                    f'expected type {topic.type_name} in {"/".join(topic.encodings)}, '
+                    f'got {type_name} in {"/".join(encodings)}'
                 )
                 continue
             names[number] = name
@@ -237,7 +245,7 @@ class BagReader:
             if not isinstance(profiles, list) or not all(isinstance(qos, dict) for qos in profiles):
                 raise ValueError('expected a list of mappings')
         except ValueError as error:
-            self._warn(f'{self.path}: quality of service of {channel.topic} not used: {error}')
+            self.warn(f'{self.path}: quality of service of {channel.topic} not used: {error}')
             profiles = []
         return tuple(profiles)
 
@@ -251,7 +259,7 @@ class BagReader:
             try:
                 own = parse_metadata(load_yaml(record.metadata.get('serialized_metadata', '')))
             except ValueError as error:
-                self._warn(f'{file.path}: metadata of rosbag2 not used: {error}')
+                self.warn(f'{file.path}: metadata of rosbag2 not used: {error}')
                 continue
             self.notes.update(own.custom_data)
             compression = own.message_compression
@@ -265,7 +273,7 @@ class BagReader:
         count = sum(self.counts.values())
         if metadata.message_count > count:
             seconds = max(metadata.end - self.end_time, 0) * 1e-9
-            self._warn(
+            self.warn(
                 f'{self.path}: {metadata.message_count - count} of the '
                 f'{metadata.message_count} messages that metadata.yaml counts are missing, '
                 f'{seconds:.3f} s at the end'
@@ -288,7 +296,7 @@ class BagReader:
             if (file.path, piece.offset) not in self._damaged:
                 self._damaged.add((file.path, piece.offset))
                 first, last = ((time - self.start_time) * 1e-9 for time in (piece.start, piece.end))
-                self._warn(
+                self.warn(
                     f'{file.path}: damaged at byte {piece.offset} ({error}): {piece.length} bytes '
                     f'with the messages from {first:.3f} s to {last:.3f} s are left out'
                 )

@@ -17,7 +17,14 @@ from mcap.writer import LIBRARY_IDENTIFIER, CompressionType, Writer
 
 from tactile_push.bags.definitions import schema_text
 from tactile_push.bags.disk import Disk, DiskFile, sync_directory, write_whole
-from tactile_push.bags.metadata import FileMetadata, Messages, TopicMetadata, bag_metadata, to_yaml
+from tactile_push.bags.metadata import (
+    ROS_ENCODINGS,
+    FileMetadata,
+    Messages,
+    TopicMetadata,
+    bag_metadata,
+    to_yaml,
+)
 
 # Longest time for which a message stays in memory while others follow it [s]. With the time that
 # the disk then takes, a power cut loses no more than a second.
@@ -29,6 +36,7 @@ COMPRESSIONS = {
     'none': CompressionType.NONE,
 }
 
+_NO_SCHEMA = 0  # its number in MCAP
 IS_THERE = 'expected a new folder, got a path that exists'
 # Size at which a chunk is closed, before compression [B]; as in mcap itself.
 _CHUNK_BYTES = 1 << 20
@@ -134,6 +142,7 @@ class BagWriter:
         qos: Sequence[Mapping[str, object]] = (),
         type_hash: str = '',
         definition: str | None = None,
+        encodings: tuple[str, str] = ROS_ENCODINGS,
     ) -> None:
         """Add a topic, which must be done once before messages are written to it.
 
@@ -150,6 +159,9 @@ class BagWriter:
         definition : str, optional
             Definition of the message type with those of all its parts, for example from another
             bag; by default that of the installed type.
+        encodings : tuple of two str, optional
+            Encodings of the messages and of the definition in the words of MCAP, for messages of
+            another bag that are not ROS 2's; the second is empty if there is no definition.
 
         Raises
         ------
@@ -161,7 +173,7 @@ class BagWriter:
         if name in self._topics:
             raise ValueError(f'the bag has the topic {name} already')
         self._definitions[name] = schema_text(type_name) if definition is None else definition
-        self._topics[name] = TopicMetadata(name, type_name, qos, type_hash)
+        self._topics[name] = TopicMetadata(name, type_name, qos, type_hash, encodings=encodings)
         self._register(self._topics[name])
 
     def write(self, topic: str, data: bytes, log_time_ns: int, publish_time_ns: int) -> None:
@@ -172,7 +184,7 @@ class BagWriter:
         topic : str
             Name of a topic of the bag; KeyError if it was not added.
         data : bytes
-            The message in CDR, with its four bytes of encapsulation header.
+            The message in its topic's encoding: CDR with its four bytes of encapsulation header.
         log_time_ns, publish_time_ns : int
             When it was received and published, in nanoseconds since the epoch of the clock.
         """
@@ -255,7 +267,7 @@ class BagWriter:
             enable_crcs=True,
         )
         self._mcap.start(profile='ros2', library=f'tactile_push {LIBRARY_IDENTIFIER}')
-        self._schema_ids: dict[tuple[str, str], int] = {}
+        self._schema_ids: dict[tuple[str, str, str], int] = {}
         self._channel_ids: dict[str, int] = {}
         self._add_metadata_record()
         for key, text in self._notes.items():
@@ -271,15 +283,16 @@ class BagWriter:
         self._stream.close()
 
     def _register(self, topic: TopicMetadata) -> None:
-        definition = self._definitions[topic.name]
-        schema = topic.type_name, definition
+        message_encoding, schema_encoding = topic.encodings
+        schema = topic.type_name, schema_encoding, self._definitions[topic.name]
         if schema not in self._schema_ids:
-            self._schema_ids[schema] = self._mcap.register_schema(
-                topic.type_name, 'ros2msg', definition.encode()
+            data = schema[-1].encode(errors='surrogateescape')  # as `BagReader` decodes it
+            self._schema_ids[schema] = (
+                self._mcap.register_schema(*schema[:2], data) if schema_encoding else _NO_SCHEMA
             )
         self._channel_ids[topic.name] = self._mcap.register_channel(
             topic.name,
-            'cdr',
+            message_encoding,
             self._schema_ids[schema],
             {
                 'offered_qos_profiles': to_yaml([dict(entry) for entry in topic.qos]).rstrip(),

@@ -3,6 +3,7 @@
 """Record topics of a running ROS graph into a bag."""
 
 import math
+import re
 import struct
 import time
 from collections.abc import Iterator, Sequence
@@ -32,6 +33,10 @@ _WATCH_LOOKS = 10  # looks for new topics between two at the publishers of recor
 # Messages of a topic that may wait while the process does not run: those of a second, at the
 # highest rate at which none may be lost.
 _DEPTH = 5000
+
+
+# As ROS names message types; Python's own names begin otherwise.
+_TYPE_NAME = re.compile(r'([A-Za-z][A-Za-z0-9_]*)/msg/([A-Z][A-Za-z0-9]*)')
 
 
 class _TakenFrom(CallbackGroup):
@@ -259,9 +264,11 @@ def _is_latched(subscription: Subscription) -> bool:
 
 def message_class(type_name: str) -> type:
     """Return the Python class of a message type; LookupError if it is not installed."""
-    package, *_, name = type_name.split('/')
+    match = _TYPE_NAME.fullmatch(type_name)
+    if match is None:
+        raise LookupError(f"expected a message type package/msg/Type, got '{type_name}'")
     try:
-        return getattr(import_module(f'{package}.msg'), name)
+        return getattr(import_module(f'{match[1]}.msg'), match[2])
     except (ImportError, AttributeError):
         raise LookupError(f'the message type {type_name} is not installed') from None
 

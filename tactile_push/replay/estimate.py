@@ -12,6 +12,7 @@ from typing import Any
 
 from tactile_push.bags import BagError, BagReader
 from tactile_push.control import tick_of
+from tactile_push.fingers import fingers_in, left_alone
 from tactile_push.interface import (
     ACTIVE_SENSING,
     CONTROLLER_STATE,
@@ -25,7 +26,7 @@ from tactile_push.parameters import ActiveSensingParameters
 from tactile_push.parameters.active_sensing import make_sensing
 from tactile_push.pipeline import by_name
 from tactile_push.pipeline.stamps import epoch_of, seconds_since, stamp_of
-from tactile_push.replay.messages import fingers_of
+from tactile_push.replay.messages import still_free
 from tactile_push.replay.new_bag import new_bag
 from tactile_push.replay.object_history import ObjectFigures, ObjectHistory
 from tactile_push.replay.parameters import FingerParameters, ParameterFile
@@ -69,18 +70,22 @@ def estimate(
     """
     from tactile_push.pipeline import Sensing  # which loads the compiler
 
-    namespaces = list(fingers_of(bag, [CONTROLLER_STATE], INPUTS))
-    if not namespaces:
-        raise BagError(
-            f'{bag.path}: no control periods, expected a topic {CONTROLLER_STATE}: nobody knows '
-            'how the finger moved'
+    found = fingers_in(bag, [CONTROLLER_STATE])
+    foreign = left_alone(bag, {*INPUTS, *MADE})
+    if not found:
+        nothing = (
+            f'no control periods, expected a topic {CONTROLLER_STATE}: nobody knows how the '
+            'finger moved'
         )
+        raise BagError(f'{bag.path}: {"; ".join(filter(None, [nothing, foreign]))}')
+    if foreign:
+        bag.warn(f'{bag.path}: {foreign}')
     file = ParameterFile(config)
-    file.check(namespaces, [ACTIVE_SENSING])
+    file.check(found, [ACTIVE_SENSING])
     seconds = partial(seconds_since, epoch_of(bag.start_time // 10**9))
     steps: dict[str, Sensing] = {}
     histories: dict[str, ObjectHistory] = {}
-    for namespace in namespaces:
+    for namespace in found:
         wanted = {ACTIVE_SENSING: sensing or {}}
         parameters = FingerParameters.of(bag.notes, namespace, file, wanted)
         values = ActiveSensingParameters.of(parameters.sensing)
@@ -90,8 +95,9 @@ def estimate(
         pushed = object_with(values.corners, values.disk_radius)
         finger = namespace.removeprefix('/')
         histories[namespace] = ObjectHistory(finger, bag.start_time, told, pushed)
-    inputs = {f'{n}/{topic}': (n, topic) for n in namespaces for topic in INPUTS}
-    made = {f'{n}/{topic}': TOPICS[topic].type_name for n in namespaces for topic in MADE}
+    inputs = {f'{n}/{t}': (n, t) for n, topics in found.items() for t in INPUTS if t in topics}
+    made = {f'{n}/{topic}': TOPICS[topic].type_name for n in found for topic in MADE}
+    made = still_free(bag, made)
     with ExitStack() as stack:
         new = None if out is None else stack.enter_context(new_bag(out, bag, made))
         for count, message in enumerate(bag.messages(inputs if new is None else None)):

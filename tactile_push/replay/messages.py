@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a replay reads from a bag and its messages, and what it hands on."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
-from tactile_push.bags import BagError, BagReader, Message
+from tactile_push.bags import BagReader, Message
 from tactile_push.control import Tick
-from tactile_push.interface import TOPICS, fingers
+from tactile_push.fingers import is_own
 from tactile_push.pipeline import Fields, Output, Stamp
 
 Written = Message | tuple[Output, int]
@@ -35,17 +35,7 @@ def only(names: Collection[str], fields: Fields) -> Fields:
     return {**fields, 'name': list(kept), 'position': list(kept.values())}
 
 
-def fingers_of(
-    bag: BagReader, having: Collection[str], needed: Collection[str]
-) -> dict[str, set[str]]:
-    """Return the topics with messages of each finger that has one of some topics, by namespace.
-
-    Raises BagError if a needed topic has another type than the package's.
-    """
-    found = fingers((name for name in bag.topics if bag.counts[name]), having)
-    for namespace, topics in found.items():
-        for topic in sorted(topics.intersection(needed)):
-            expected, got = TOPICS[topic].type_name, bag.topics[f'{namespace}/{topic}'].type_name
-            if got != expected:
-                raise BagError(f'{bag.path}: {namespace}/{topic}: expected {expected}, got {got}')
-    return found
+def still_free(bag: BagReader, made: Mapping[str, str]) -> dict[str, str]:
+    """Return the topics to be made, types by name, without names that something foreign has."""
+    taken = {name for name in made if name in bag.topics and not is_own(bag, name)}
+    return {name: type_name for name, type_name in made.items() if name not in taken}

@@ -25,8 +25,9 @@ class NewBag:
         self._writer.write(message.topic, message.data, message.log_time, message.publish_time)
 
     def write(self, topic: str, fields: Fields, log_time: int) -> None:
-        """Write a message of a topic that is made anew, at a log time [ns]."""
-        self._writer.write(topic, self._encoders[topic](fields), log_time, log_time)
+        """Write a message, at a log time [ns], of a topic that is made anew; leave out others."""
+        if topic in self._encoders:
+            self._writer.write(topic, self._encoders[topic](fields), log_time, log_time)
 
 
 @contextmanager
@@ -65,6 +66,7 @@ def _begin(
             qos=topic.qos,
             type_hash=topic.type_hash,
             definition=topic.definition,
+            encodings=topic.encodings,
         )
     encoders = {}
     for name, type_name in made.items():

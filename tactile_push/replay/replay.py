@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tactile_push.bags import BagError, BagReader
+from tactile_push.fingers import fingers_in, is_own, left_alone
 from tactile_push.interface import (
     COMMAND,
     CONTACT,
@@ -24,7 +25,7 @@ from tactile_push.interface import (
 )
 from tactile_push.replay.comparison import Comparison
 from tactile_push.replay.finger import Finger
-from tactile_push.replay.messages import fingers_of
+from tactile_push.replay.messages import still_free
 from tactile_push.replay.new_bag import new_bag
 from tactile_push.replay.parameters import FingerParameters, ParameterFile, changed_parameters
 
@@ -76,9 +77,13 @@ def replay(
     OSError
         If a file cannot be read, or the new bag cannot be written.
     """
-    found = fingers_of(bag, READINGS, {TACTILE, JOINT_STATES, *MADE, *SENSED})
+    found = fingers_in(bag, READINGS)
+    foreign = left_alone(bag, {TACTILE, JOINT_STATES, PARAMETER_EVENTS, *MADE, *SENSED})
     if not found:
-        raise BagError(f'{bag.path}: nothing to replay, expected a topic tactile or contact')
+        nothing = 'nothing to replay, expected a topic tactile or contact'
+        raise BagError(f'{bag.path}: {"; ".join(filter(None, [nothing, foreign]))}')
+    if foreign:
+        bag.warn(f'{bag.path}: {foreign}')
     file = ParameterFile(config)
     file.check(found)
     replayed = []
@@ -90,12 +95,15 @@ def replay(
         f'{namespace}/{topic}': handler
         for namespace, finger in replayed
         for topic, handler in finger.handlers.items()
+        if topic in found[namespace]
     }
     made = {
         f'{namespace}/{topic}': TOPICS[topic].type_name
         for namespace, finger in replayed
         for topic in (MADE if finger.comparison.sensed is None else MADE + SENSED)
     }
+    made = still_free(bag, made)
+    events = is_own(bag, PARAMETER_EVENTS)
     with ExitStack() as stack:
         new = None if out is None else stack.enter_context(new_bag(out, bag, made))
         for _, finger in replayed:
@@ -106,7 +114,7 @@ def replay(
                 progress(count)
             if message.topic in handlers:
                 handlers[message.topic](message)
-            elif message.topic == PARAMETER_EVENTS:
+            elif message.topic == PARAMETER_EVENTS and events:
                 node, values = changed_parameters(bag.decode(message))
                 for _, finger in replayed:
                     finger.change(node, values)

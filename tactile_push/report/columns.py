@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tactile_push.bags import BagError, BagReader
+from tactile_push.fingers import fingers_in, is_own, left_alone
 from tactile_push.interface import (
     CONTACT,
     CONTROLLER_STATE,
@@ -26,7 +27,6 @@ from tactile_push.interface import (
     TOPICS,
     TRUE_POSE,
     TRUE_STATE,
-    fingers,
 )
 from tactile_push.pipeline.named import by_name
 from tactile_push.pipeline.orientation import yaw_of_quaternion
@@ -83,21 +83,22 @@ def node_parameters(bag: BagReader) -> dict[str, dict[str, Any]] | None:
 
 def namespaces(bag: BagReader) -> list[str]:
     """Return the fingers' namespaces, '' or such as '/left', first the one with most topics."""
-    found = fingers([topic for topic, count in bag.counts.items() if count], SHOWN)
+    found = fingers_in(bag, SHOWN)
     if not found:
-        raise BagError(f'{bag.path}: nothing to report, expected messages on {", ".join(SHOWN)}')
+        nothing = f'nothing to report, expected messages on {", ".join(SHOWN)}'
+        raise BagError(f'{bag.path}: {"; ".join(filter(None, [nothing, foreign_in(bag)]))}')
     return sorted(found, key=lambda name: (-len(found[name].intersection(SHOWN)), name))
 
 
 def topics_of(bag: BagReader, namespace: str) -> dict[str, str]:
     """Return the topics of a finger that a report shows: full name to relative name."""
     wanted = {f'{namespace}/{own}': own for own in SHOWN} | {DIAGNOSTICS: DIAGNOSTICS}
-    there = {topic: own for topic, own in wanted.items() if topic in bag.topics}
-    for topic, own in there.items():
-        expected, found = TOPICS[own].type_name, bag.topics[topic].type_name
-        if found != expected:
-            raise BagError(f'{bag.path}: {topic}: expected {expected}, got {found}')
-    return there
+    return {topic: own for topic, own in wanted.items() if is_own(bag, topic)}
+
+
+def foreign_in(bag: BagReader) -> str:
+    """Return a clause that tells the topics that are named like those of a report and are not."""
+    return left_alone(bag, {*SHOWN, DIAGNOSTICS})
 
 
 def read_tables(

@@ -10,12 +10,8 @@ from typing import Any
 
 from tactile_push.bags import BagError, BagReader, Message
 from tactile_push.bags.survey import FileInfo, TopicInfo, survey
-from tactile_push.interface import (
-    CONTROLLER_STATE,
-    JOINT_STATE_TYPE,
-    VERSION_NOTE,
-    fingers,
-)
+from tactile_push.fingers import is_own, left_alone
+from tactile_push.interface import CONTROLLER_STATE, VERSION_NOTE, own_name
 from tactile_push.report.columns import TAKEN, Columns, node_parameters, positions
 from tactile_push.report.merit import PushFigures, push_figures
 from tactile_push.report.pushed import pushed_object
@@ -51,13 +47,14 @@ def bag_info(
     except ValueError as error:
         parameters = None
         remarks.append(str(error))
-    states: dict[str, Columns] = {}
-    for namespace in sorted(fingers(bag.topics, {CONTROLLER_STATE})):
-        topic = bag.topics[f'{namespace}/{CONTROLLER_STATE}']
-        if topic.type_name != JOINT_STATE_TYPE:
-            remarks.append(f'{topic.name} has type {topic.type_name}, expected {JOINT_STATE_TYPE}')
-        elif topic.decodes:
-            states[topic.name] = Columns()
+    if foreign := left_alone(bag, {CONTROLLER_STATE}):
+        remarks.append(foreign)
+    namespaces = {
+        name.removesuffix(f'/{CONTROLLER_STATE}')
+        for name, topic in bag.topics.items()
+        if own_name(name) == CONTROLLER_STATE and is_own(bag, name) and topic.decodes
+    }
+    states = {f'{namespace}/{CONTROLLER_STATE}': Columns() for namespace in sorted(namespaces)}
     undecoded: Counter[str] = Counter()
 
     def hear(message: Message, stamp: int | None) -> None:

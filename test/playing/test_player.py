@@ -18,6 +18,8 @@ from rclpy.serialization import serialize_message  # noqa: E402
 from rosgraph_msgs.msg import Clock  # noqa: E402
 from std_msgs.msg import Int64, String  # noqa: E402
 
+from support.bag_copies import with_topics  # noqa: E402
+from support.foreign_topics import NAMESAKES, OTHERS  # noqa: E402
 from tactile_push.bags import BagWriter  # noqa: E402
 from tactile_push.bags.reader import BagError, BagReader  # noqa: E402
 from tactile_push.playing import player as playing  # noqa: E402
@@ -337,6 +339,25 @@ def test_topics_that_cannot_be_published_are_left_out_with_one_warning(graph, tm
     assert [topic for topic, _, _ in graph.heard] == ['/number']
     (warning,) = graph.warnings
     for words in ('/unknown', 'nowhere_msgs/msg/Thing is not installed', '/other', '/no-name'):
+        assert words in warning
+
+
+def test_topics_of_types_that_ros_does_not_know_are_left_out_with_one_warning(graph, tmp_path):
+    graph.listen(Int64, '/number')
+    bag = write(tmp_path / 'bag', [0])
+    mixed = with_topics(bag.path, tmp_path / 'mixed', *OTHERS, *NAMESAKES[1:3])
+    graph.play(part_of(BagReader(mixed)))
+    graph.spin_to_the_end()
+    assert graph.numbers() == due(0)
+    (warning,) = graph.warnings
+    for words in (
+        "/scene (expected a message type package/msg/Type, got 'foxglove::SceneUpdate')",
+        "/bare (expected a message type package/msg/Type, got '')",
+        "/module (expected a message type package/msg/Type, got 'std_msgs/msg/_bool')",
+        "/service (expected a message type package/msg/Type, got 'std_srvs/srv/Empty')",
+        "/glove/tactile (expected a message type package/msg/Type, got '')",
+        '/text (expected messages in cdr, got json)',
+    ):
         assert words in warning
 
 

@@ -5,7 +5,8 @@
 import numpy as np
 import pytest
 
-from support.bag_copies import copied, without
+from support.bag_copies import copied, with_topics, without
+from support.foreign_topics import NAMESAKES, OTHERS
 from support.sensed_bag import DATA, TICKS, said_by_a_node, with_sensing
 from support.states import read_states
 from tactile_push.bags import BagError, BagReader, BagWriter
@@ -124,10 +125,23 @@ def test_readings_without_control_periods_tell_nothing(tmp_path):
         run(bag)
 
 
+def test_foreign_topics_are_left_alone_and_named_once(tmp_path, capsys):
+    bag = with_topics(BLOCK, tmp_path / 'mixed', *NAMESAKES, *OTHERS)
+    assert main(['estimate', str(bag), '--edge', '0', '-o', str(tmp_path / 'out')]) == 0
+    named, block = capsys.readouterr().err.splitlines()
+    assert named.endswith(
+        ': left alone: /sim/push_controller/state (expected sensor_msgs/msg/JointState, got '
+        'std_msgs/msg/Bool)'
+    )
+    assert "paper's block" in block
+    with BagReader(bag) as a, BagReader(tmp_path / 'out') as b:
+        assert [a.topics[name] for name, *_ in OTHERS] == [b.topics[name] for name, *_ in OTHERS]
+
+
 def test_topic_of_another_type_is_refused(tmp_path):
     with BagReader(BLOCK) as reader, BagWriter(tmp_path / 'bag') as writer:
         writer.add_topic(TICKS, reader.topics['/contact'].type_name)
         for message in reader.messages(['/contact']):
             writer.write(TICKS, message.data, message.log_time, message.log_time)
-    with pytest.raises(BagError, match='push_controller/state: expected sensor_msgs'):
+    with pytest.raises(BagError, match=r'push_controller/state \(expected sensor_msgs'):
         run(tmp_path / 'bag')

@@ -1,25 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Stamps of messages, and which topics of a bag belong to which finger."""
+"""Stamps of messages, their numbers, and the names of topics to be made."""
 
 import pytest
 
-from tactile_push.bags import BagError, BagReader, BagWriter
-from tactile_push.interface import CONTACT, TACTILE
-from tactile_push.replay.messages import fingers_of, nanoseconds, only
+from tactile_push.bags import BagReader, BagWriter
+from tactile_push.replay.messages import nanoseconds, only, still_free
 
 JOINTS, POSE = 'sensor_msgs/msg/JointState', 'geometry_msgs/msg/PoseStamped'
-
-
-def found(folder, topics, having, needed):
-    """Return the fingers of a bag of such topics: type and number of messages by name."""
-    with BagWriter(folder) as writer:
-        for name, (kind, count) in topics.items():
-            writer.add_topic(name, kind)
-            for k in range(count):
-                writer.write(name, b'\0\1\0\0', k, k)
-    with BagReader(folder) as bag:
-        return fingers_of(bag, having, needed)
 
 
 @pytest.mark.parametrize(
@@ -37,23 +25,11 @@ def test_numbers_of_other_names_are_left_out():
     }
 
 
-def test_finger_has_the_topics_of_its_namespace_that_have_messages(tmp_path):
-    topics = {
-        '/tactile': (JOINTS, 2),
-        '/contact': (POSE, 0),
-        '/left/tactile': (JOINTS, 1),
-        '/left/contact': (POSE, 1),
-        '/right/contact': (POSE, 1),
-        '/right/tactile': (JOINTS, 0),
-    }
-    fingers = found(tmp_path / 'bag', topics, [TACTILE], [TACTILE, CONTACT])
-    assert set(fingers) == {'', '/left'}
-    assert TACTILE in fingers[''] and CONTACT not in fingers['']
-    assert {TACTILE, CONTACT} <= fingers['/left']
-
-
-def test_topic_of_another_type_is_refused_if_it_is_needed(tmp_path):
-    topics = {'/left/tactile': (JOINTS, 1), '/left/contact': (JOINTS, 1)}
-    assert set(found(tmp_path / 'one', topics, [TACTILE], [TACTILE])) == {'/left'}
-    with pytest.raises(BagError, match=f'other: /left/contact: expected {POSE}, got {JOINTS}'):
-        found(tmp_path / 'other', topics, [TACTILE], [TACTILE, CONTACT])
+def test_names_that_something_foreign_has_are_not_made(tmp_path):
+    with BagWriter(tmp_path / 'bag') as writer:
+        writer.add_topic('/contact', JOINTS)
+        writer.add_topic('/object_pose', POSE)
+        writer.add_topic('/tactile', JOINTS)
+    made = {'/contact': POSE, '/left/contact': POSE, '/tactile': JOINTS}
+    with BagReader(tmp_path / 'bag') as bag:
+        assert still_free(bag, made) == {'/left/contact': POSE, '/tactile': JOINTS}

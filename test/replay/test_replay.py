@@ -12,7 +12,8 @@ import hashlib
 
 import pytest
 
-from support.bag_copies import DATA, contents, copied, replayed
+from support.bag_copies import DATA, contents, copied, replayed, with_topics
+from support.foreign_topics import BOOL, NAMESAKES, OTHERS
 from tactile_push.bags import BagError, BagReader, BagWriter
 from tactile_push.cli import main
 from tactile_push.control import STOP_REASONS
@@ -125,10 +126,56 @@ def test_nothing_to_replay_is_said(tmp_path):
         replayed(bag)
 
 
-def test_topic_of_another_type_is_refused(tmp_path):
-    def swap(topic):
-        return {'/contact': '/tactile', '/tactile': '/contact'}.get(topic, topic)
+@pytest.fixture
+def mixed(tmp_path):
+    """Return the block's bag with topics of other software."""
+    return with_topics(DATA / 'block', tmp_path / 'mixed', *NAMESAKES, *OTHERS)
 
-    bag = copied(DATA / 'stops', tmp_path / 'bag', rename=swap)
-    with pytest.raises(BagError, match='expected geometry_msgs|expected sensor_msgs'):
-        replayed(bag)
+
+def test_foreign_topics_are_left_alone_and_named_once(mixed, capsys):
+    assert main(['replay', str(mixed)]) == 0
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(f'tactile_push replay: warning: {mixed}: left alone: ')
+    assert line.count('/hand/contact (expected geometry_msgs/msg/PoseStamped, got std_m') == 1
+    assert line.count('/glove/tactile (expected sensor_msgs/msg/JointState, got no type)') == 1
+    assert '/scene' not in line
+    (comparison,) = replayed(mixed)
+    assert (comparison.finger, comparison.different()) == ('', [])
+    assert len(comparison.ticks) > 100
+
+
+def test_foreign_topics_are_copied_as_they_are(mixed, tmp_path):
+    replayed(mixed, out=tmp_path / 'out')
+    with BagReader(mixed) as a, BagReader(tmp_path / 'out') as b:
+        for name, *_ in NAMESAKES + OTHERS:
+            assert a.topics[name] == b.topics[name]
+            assert [m.data for m in a.messages([name])] == [m.data for m in b.messages([name])]
+    assert main(['diff', str(mixed), str(tmp_path / 'out')]) == 0
+
+
+def test_name_of_the_finger_itself_may_be_taken_by_something_foreign(tmp_path):
+    bag = copied(DATA / 'block', tmp_path / 'bag', keep=lambda topic: topic != '/contact')
+    bag = with_topics(bag, tmp_path / 'mixed', ('/contact', *BOOL))
+    (comparison,) = replayed(bag, out=tmp_path / 'out')
+    assert not comparison.different()
+    assert contents(tmp_path / 'out') == contents(bag)
+
+
+def test_parameter_events_of_another_type_are_left_alone(tmp_path, capsys):
+    bag = copied(DATA / 'block', tmp_path / 'bag', keep=lambda topic: topic != '/parameter_events')
+    bag = with_topics(bag, tmp_path / 'mixed', ('/parameter_events', *BOOL))
+    assert main(['replay', str(bag), '-o', str(tmp_path / 'out')]) == 0
+    assert '/parameter_events (expected rcl_interfaces/' in capsys.readouterr().err
+    assert main(['diff', str(bag), str(tmp_path / 'out')]) == 0
+
+
+def test_bag_of_foreign_topics_alone_is_refused_in_one_line_that_names_them(tmp_path, capsys):
+    bag = with_topics(
+        copied(DATA / 'block', tmp_path / 'bag', keep={'/clock'}.__contains__),
+        tmp_path / 'mixed',
+        *NAMESAKES,
+    )
+    for command in ('replay', 'estimate'):
+        assert main([command, str(bag)]) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert '/sim/push_controller/state (expected sensor_msgs/msg/JointState, got std_' in line

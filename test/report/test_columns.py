@@ -6,6 +6,8 @@ import math
 
 import pytest
 
+from support.bag_copies import with_topics
+from support.foreign_topics import BOOL, NAMESAKES, OTHERS
 from support.pushed_bag import (
     JOINTS,
     POSE,
@@ -14,6 +16,7 @@ from support.pushed_bag import (
     joint_state,
     pose,
     run_of,
+    write_bag,
     written,
 )
 from tactile_push.bags import BagError
@@ -97,5 +100,30 @@ def test_bag_of_something_else_is_refused(tmp_path):
 def test_topic_of_another_type_is_refused(tmp_path):
     data = joint_state(0.0, theta=1.0)
     folder = written(tmp_path / 'bag', ('/contact', JOINTS, 0.0, data))
-    with pytest.raises(BagError, match=f'bag: /contact: expected {POSE}, got {JOINTS}'):
+    with pytest.raises(BagError, match=rf'/contact \(expected {POSE}, got {JOINTS}\)'):
         run_of(folder)
+
+
+def test_diagnostics_of_another_type_are_left_alone(tmp_path):
+    rows = (
+        ('/contact', POSE, 0.0, pose(0.0, 0.0, R, 0.0)),
+        ('/diagnostics', *BOOL[:1], 0.0, BOOL[-1]),
+    )
+    run = run_of(written(tmp_path / 'bag', *rows))
+    assert len(run.series['theta'].values) == 1
+    (line,) = run.warnings
+    assert '/diagnostics (expected diagnostic_msgs/msg/DiagnosticArray, got std_msgs/' in line
+
+
+def test_foreign_topics_are_left_alone_and_named_once(tmp_path):
+    bag = write_bag(tmp_path / 'bag')
+    expected = run_of(bag)
+    mixed = with_topics(bag, tmp_path / 'mixed', *NAMESAKES, *OTHERS)
+    run = run_of(mixed)
+    assert set(run.series) == set(expected.series)
+    assert [e.text for e in run.episodes if e.lane == 'controller'] == ['stopped: contact silent']
+    (line,) = run.warnings
+    assert line.startswith(
+        'left alone: /glove/tactile (expected sensor_msgs/msg/JointState, got no'
+    )
+    assert '/hand/contact (expected' in line and '/web/contact (expected' in line

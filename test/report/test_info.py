@@ -193,7 +193,7 @@ def test_parameters_that_make_no_sense_are_left_out(tmp_path, text):
 def test_state_of_another_type_is_left_out(tmp_path):
     info = info_of(write_bag(tmp_path / 'bag', {STATE: clocks(1)}))
     assert info.pushes == {}
-    assert info.remarks == [f'{STATE} has type {CLOCK}, expected {JOINT_STATE}']
+    assert info.remarks == [f'left alone: {STATE} (expected {JOINT_STATE}, got {CLOCK})']
 
 
 def test_what_cannot_be_decoded_is_counted_all_the_same(tmp_path):

@@ -2,7 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The recorded bags that tests replay, and copies of bags."""
 
+import shutil
 from pathlib import Path
+
+from mcap.writer import Writer
 
 from tactile_push.bags import BagReader, BagWriter
 from tactile_push.replay import replay
@@ -23,6 +26,28 @@ def copied(bag, out, rename=lambda topic: topic, keep=lambda topic: True, note=T
                 )
         for key, text in reader.notes.items() if note else ():
             writer.note(key, text)
+    return out
+
+
+def with_topics(bag, out, *topics):
+    """Copy a bag and add topics, each with a message at each tenth of its first second.
+
+    A topic is its name, its type, the encodings of messages and schema, the schema, a message.
+    """
+    out.mkdir()
+    with BagReader(bag) as reader:
+        for file in reader.files:
+            shutil.copy(file, out)
+        start = reader.start_time
+    with open(out / 'more_0.mcap', 'wb') as stream:
+        writer = Writer(stream)
+        writer.start('ros2')
+        for name, type_name, encoding, schema_encoding, schema, data in topics:
+            number = writer.register_schema(type_name, schema_encoding, schema) if type_name else 0
+            channel = writer.register_channel(name, encoding, number)
+            for k in range(10):
+                writer.add_message(channel, start + k * 10**8, data, start)
+        writer.finish()
     return out
 
 
