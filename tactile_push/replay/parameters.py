@@ -2,14 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parameters of a replay: those of the recorded nodes, and those that somebody wants instead."""
 
-import difflib
 import json
-import re
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
-
-import yaml
 
 from tactile_push.interface import (
     ACTIVE_SENSING,
@@ -19,6 +15,8 @@ from tactile_push.interface import (
     node_in,
 )
 from tactile_push.parameters import PARAMETERS
+from tactile_push.parameters.ros_file import matches, read_sections
+from tactile_push.parameters.slips import meant
 
 REPLAYED = (CONTACT_GEOMETRY, PUSH_CONTROLLER, ACTIVE_SENSING)
 NODES = {node: PARAMETERS[node].declared() for node in REPLAYED}
@@ -33,7 +31,6 @@ RECORDED_EFFECT = {
         *('steadying_max', 'edge_distance', 'finger_radius'),
     },
 }
-OF_EVERY_NODE = 'use_sim_time'  # without effect here: all times are the bag's
 OF_OUTLINE = ('disk_radius', 'edge')  # go with the outline, so another outline replaces them
 
 ByNode = dict[str, dict[str, Any]]
@@ -48,29 +45,21 @@ class ParameterFile:
 
     def __init__(self, file: Path | None) -> None:
         self.file = file
-        self._sections = list(_sections(file))
+        self._sections = {} if file is None else read_sections(file)
 
     def values(self, namespace: str) -> ByNode:
         """Return the parameters of a finger's nodes by node and name.
 
-        Raises ValueError if a section has no parameters, or a name looks like a slip.
+        Raises ValueError if a name looks like a slip.
         """
         values: ByNode = {node: {} for node in NODES}
-        for pattern, section in self._sections:
-            for node in NODES:
-                if _matches(pattern, f'{namespace}/{node}'):
-                    given = section.get('ros__parameters') if isinstance(section, dict) else None
-                    if not isinstance(given, dict):
-                        raise ValueError(
-                            f'{self.file}: {pattern}: expected ros__parameters: with values'
-                        )
+        for node, declared in NODES.items():
+            for section, given in self._sections.items():
+                if matches(section, f'{namespace}/{node}'):
                     values[node].update(given)
-        known = {parameter.name for declared in NODES.values() for parameter in declared}
-        known.add(OF_EVERY_NODE)
-        for name in {name for given in values.values() for name in given} - known:
-            similar = difflib.get_close_matches(name, sorted(known), n=1, cutoff=0.5)
-            if similar:
-                raise ValueError(f'{self.file}: {name}: unknown, did you mean {similar[0]}?')
+            for name in values[node]:
+                if similar := meant(name, {parameter.name for parameter in declared}):
+                    raise ValueError(f'{self.file}: {name}: unknown, did you mean {similar}?')
         return values
 
     def check(self, namespaces: Iterable[str], nodes: Iterable[str] = REPLAYED) -> None:
@@ -91,8 +80,8 @@ class ParameterFile:
     def names(self, namespace: str, node: str) -> bool:
         """Return whether a section is for the node by its name, not for all nodes."""
         return any(
-            pattern.endswith(node) and _matches(pattern, f'{namespace}/{node}')
-            for pattern, _ in self._sections
+            section.endswith(node) and matches(section, f'{namespace}/{node}')
+            for section in self._sections
         )
 
 
@@ -171,22 +160,3 @@ def changed_parameters(event: Any) -> tuple[str, dict[str, Any]]:
         for changed in event.changed_parameters
         if 0 < changed.value.type < len(fields)
     }
-
-
-def _sections(file: Path | None) -> Iterator[tuple[str, Any]]:
-    """Yield the sections of a parameter file, each with the nodes that it is for."""
-    if file is None:
-        return
-    try:
-        document = yaml.safe_load(file.read_text())
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise ValueError(f'{file}: no YAML: {" ".join(str(error).split())}') from None
-    for pattern, section in document.items() if isinstance(document, dict) else ():
-        yield str(pattern), section
-
-
-def _matches(pattern: str, node: str) -> bool:
-    """Return whether a section is for a node: `**` stands for any names, `*` for one."""
-    pattern = '/' + pattern.lstrip('/')
-    expression = re.escape(pattern).replace(r'\*\*', '.*').replace(r'\*', '[^/]*')
-    return re.fullmatch(expression.replace('/.*/', '/(.*/)?'), node) is not None

@@ -113,8 +113,8 @@ def test_wanted_outline_is_another_object():
     [
         ('/**:\n  ros__parameters:\n    theta_desird: 0.1\n', 'did you mean theta_desired'),
         ('/**:\n  kp: 0.1\n', 'expected ros__parameters'),
-        ('/**: [1, 2]\n', 'expected ros__parameters'),
-        ('a: [1', 'no YAML'),
+        ('/**: [1, 2]\n', 'line 1: expected a list below ros__parameters'),
+        ("'a", 'no YAML'),
         ('\x00', 'no YAML'),
     ],
 )

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Declares the parameters of a node with ROS, and refuses what is no value of theirs."""
 
-import difflib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -20,6 +19,8 @@ from rclpy.exceptions import ParameterException
 from rclpy.node import Node
 
 from tactile_push.parameters import NodeParameters, Parameter
+from tactile_push.parameters.ros_file import QOS_OVERRIDES
+from tactile_push.parameters.slips import meant
 
 P = TypeVar('P', bound=NodeParameters)
 
@@ -103,10 +104,9 @@ def declare(
     overrides = node._parameter_overrides  # rclpy has no public way to see what nobody declares
     first = {name: _declare(node, parameter, overrides) for name, parameter in declared.items()}
     for name in overrides:
-        if not node.has_parameter(name) and not name.startswith('qos_overrides.'):
-            similar = difflib.get_close_matches(name, list(declared), n=1, cutoff=0.5)
-            if similar:
-                raise ConfigurationError(f'parameter {name}: unknown, did you mean {similar[0]}?')
+        if not node.has_parameter(name) and not name.startswith(QOS_OVERRIDES):
+            if similar := meant(name, declared):
+                raise ConfigurationError(f'parameter {name}: unknown, did you mean {similar}?')
             node.get_logger().warning(f'parameter {name}: unknown, so it does nothing')
     values = kind(**first)
     node.add_post_set_parameters_callback(take)
@@ -125,8 +125,12 @@ def _declare(node: Node, parameter: Parameter, overrides: dict[str, Any]) -> Any
         raise ConfigurationError(
             f'parameter {parameter.name}: expected {parameter.expected()}, got {given!r}'
         ) from None
-    if value is None:  # no texts given either
+    if value is None:  # an empty list, whose type nobody knows
         value = []
+        try:
+            parameter.check(value)
+        except ValueError as error:
+            raise ConfigurationError(str(error)) from None
         node._parameters[parameter.name] = rclpy.parameter.Parameter(
             parameter.name, rclpy.parameter.Parameter.Type.STRING_ARRAY, value
         )
