@@ -4,9 +4,9 @@
 
 import pytest
 
-from tactile_push.bags import BagReader, BagWriter
-from tactile_push.fingers import fingers_in, is_own, left_alone
-from tactile_push.interface import CONTACT, DIAGNOSTICS, TACTILE, TRUE_POSE
+from tactile_push.bags import BagError, BagReader, BagWriter
+from tactile_push.fingers import FIELDS, definition_trouble, fingers_in, is_own, left_alone
+from tactile_push.interface import CONTACT, DIAGNOSTICS, GEOMETRY_STATE, TACTILE, TRUE_POSE
 
 JOINTS, POSE, BOOL = 'sensor_msgs/msg/JointState', 'geometry_msgs/msg/PoseStamped', 'a_msgs/msg/B'
 
@@ -35,7 +35,7 @@ def test_finger_has_the_topics_of_its_namespace_that_have_messages(bag):
         '/right/contact': (POSE, 1),
         '/right/tactile': (JOINTS, 0),
     }
-    fingers = fingers_in(bag(topics), [TACTILE])
+    fingers = fingers_in(bag(topics), [TACTILE], [], '')
     assert fingers == {'': {TACTILE}, '/left': {TACTILE, CONTACT}}
 
 
@@ -51,7 +51,7 @@ def test_what_is_named_like_a_topic_of_a_finger_and_is_of_another_type_is_foreig
         '/my_contact': (BOOL, 1),
     }
     reader = bag(topics)
-    assert fingers_in(reader, [TACTILE, CONTACT]) == {'': {TACTILE}}
+    assert fingers_in(reader, [TACTILE, CONTACT], [], '') == {'': {TACTILE}}
     assert left_alone(reader, [TACTILE, CONTACT]) == (
         f'left alone: /contact (expected {POSE}, got {BOOL}), '
         f'/glove/tactile (expected {JOINTS}, got no type), '
@@ -64,4 +64,22 @@ def test_what_is_named_like_a_topic_of_a_finger_and_is_of_another_type_is_foreig
 
 
 def test_type_name_without_msg_is_the_same_type(bag):
-    assert fingers_in(bag({'/tactile': ('sensor_msgs/JointState', 1)}), [TACTILE])
+    reader = bag({'/tactile': ('sensor_msgs/JointState', 1)})
+    assert fingers_in(reader, [TACTILE], [], '') == {'': {TACTILE}}
+
+
+def test_fields_that_are_read_are_those_of_the_types(tmp_path):
+    with BagWriter(tmp_path / 'types') as writer:
+        for number, type_name in enumerate(FIELDS):
+            pytest.importorskip(type_name.split('/')[0])
+            writer.add_topic(f'/t{number}', type_name)
+    with BagReader(tmp_path / 'types') as reader:
+        assert {definition_trouble(reader, topic) for topic in reader.topics} == {''}
+
+
+def test_definition_that_lacks_what_is_read_is_refused_where_it_is_used(bag):
+    reader = bag({'/tactile': (JOINTS, 1), '/contact': (POSE, 1)})
+    with pytest.raises(BagError, match=f'the definition of {JOINTS} for /tactile lacks header'):
+        fingers_in(reader, [TACTILE], [TACTILE, GEOMETRY_STATE], '')
+    with pytest.raises(BagError, match='bag: nothing at all'):
+        fingers_in(reader, [TRUE_POSE], [TACTILE], 'nothing at all')

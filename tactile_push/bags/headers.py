@@ -5,11 +5,12 @@
 import re
 import struct
 
+from tactile_push.bags.fields import fields_of
 from tactile_push.bags.reader import BagError, BagReader, Message
+from tactile_push.bags.topic import Topic
 
-# Comments, empty lines and constants before the first field of a definition.
-_PREAMBLE = re.compile(r'(?:[ \t]*(?:#[^\n]*)?\n|[ \t]*\S+[ \t]+\w+[ \t]*=[^\n]*\n)*')
-_HEADER = re.compile(r'[ \t]*(?:std_msgs/(?:msg/)?)?Header[ \t]+\w+')
+# The first fields of a definition that begins with a header; signs do not matter here.
+_HEADER = re.compile(r'(\w+)\.stamp\.sec u?int32, \1\.stamp\.nanosec u?int32, \1\.frame_id string')
 
 _STAMP = {0: struct.Struct('>iI'), 1: struct.Struct('<iI')}  # by the encapsulation's last bit
 _STAMP_AT = 4  # behind the encapsulation header
@@ -24,9 +25,7 @@ class HeaderStamps:
     def __init__(self, bag: BagReader) -> None:
         self._bag = bag
         self._topics = {
-            name
-            for name, topic in bag.topics.items()
-            if topic.decodes and _begins(topic.definition)
+            name for name, topic in bag.topics.items() if topic.decodes and _begins(topic)
         }
 
     def __contains__(self, topic: str) -> bool:
@@ -46,7 +45,10 @@ class HeaderStamps:
         return sec * 10**9 + nanosec
 
 
-def _begins(definition: str) -> bool:
-    """Return whether the first field of a definition is a header."""
-    preamble = _PREAMBLE.match(definition)
-    return bool(preamble and _HEADER.match(definition, preamble.end()))
+def _begins(topic: Topic) -> bool:
+    """Return whether the first field of a topic's messages is a header."""
+    try:
+        fields = fields_of(topic.type_name, topic.definition)
+    except ValueError:
+        return False
+    return _HEADER.match(', '.join(map(' '.join, fields.items()))) is not None

@@ -2,13 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Read bags: those of this package and those of `ros2 bag record -s mcap`."""
 
-import io
 import logging
 import os
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Mapping
-from contextlib import redirect_stderr
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -28,32 +25,13 @@ from tactile_push.bags.mcap_contents import Piece
 from tactile_push.bags.mcap_file import McapFile, Message
 from tactile_push.bags.mcap_records import DamageError
 from tactile_push.bags.merge import Batch, in_order
-from tactile_push.bags.metadata import ROS_ENCODINGS
 from tactile_push.bags.sources import BagError
+from tactile_push.bags.topic import Topic
+
+# Longest message of a type without fields: the encapsulation header, a byte, padding [bytes].
+EMPTY_MESSAGE = 8
 
 _LOGGER = logging.getLogger('tactile_push.bags')
-
-
-@dataclass(frozen=True)
-class Topic:
-    """A topic of a bag."""
-
-    name: str  #: full name, with a leading slash even if the bag leaves it out
-    type_name: str  #: message type, such as ``'sensor_msgs/msg/JointState'``; empty if unknown
-    definition: str  #: the type's definition with those of all its parts, as the bag has it
-    qos: tuple[dict, ...]  #: each publisher's quality of service, in the words of rosbag2
-    type_hash: str  #: hash of the type after REP-2011; empty if the bag does not have it
-    encodings: tuple[str, str]  #: of the messages and of the schema, such as ``('cdr', 'ros2msg')``
-
-    @property
-    def decodes(self) -> bool:
-        """Whether its messages can be decoded: they are CDR, and the bag has a ROS 2 definition."""
-        return self.encodings == ROS_ENCODINGS
-
-    @property
-    def in_words(self) -> str:
-        """How its messages are encoded."""
-        return f'message encoding {self.encodings[0]!r}, schema encoding {self.encodings[1]!r}'
 
 
 class BagReader:
@@ -85,11 +63,10 @@ class BagReader:
         #: messages by topic, with those of damaged chunks that nobody has read yet
         self.counts: dict[str, int] = {}
         self.notes: dict[str, str] = {}  #: custom data of the bag
-        #: gets one line for each problem that does not keep the bag from being used
-        self.warn = warn
+        self._warn = warn
+        self._warned: set[str] = set()
         self._sources: dict[str, tuple[Channel, Schema | None]] = {}
         self._decoders: dict[str, Callable[[bytes], Any]] = {}
-        self._damaged: set[tuple[Path, int]] = set()
         try:
             metadata = self._metadata()
             files = find_files(self.path, metadata, warn)
@@ -146,6 +123,18 @@ class BagReader:
         finally:
             self._close()
 
+    def warn(self, line: str) -> None:
+        """Tell a problem that does not keep the bag from being used.
+
+        Parameters
+        ----------
+        line : str
+            What is wrong and where; a line that was told before is not told again.
+        """
+        if line not in self._warned:
+            self._warned.add(line)
+            self._warn(line)
+
     def decode(self, message: Message) -> Any:
         """Decode a message by the schema in the bag; BagError if it does not decode.
 
@@ -160,13 +149,18 @@ class BagReader:
             With the fields of the message as attributes.
         """
         decoder = self._decoders.get(message.topic) or self._make_decoder(message.topic)
+        topic = self.topics[message.topic]
+        if len(message.data) > EMPTY_MESSAGE and not topic.definition.strip():
+            raise BagError(
+                f'{self.path}: the definition of {topic.type_name} for {topic.name} is missing'
+            )
         try:
             return decoder(message.data)
         except Exception as error:  # mcap_ros2 checks nothing, so any error may come
             seconds = (message.log_time - self.start_time) * 1e-9
             raise BagError(
-                f'{self.path}: the message of {message.topic} at {seconds:.6f} s does not decode '
-                f'as {self.topics[message.topic].type_name}: {_one_line(error)}'
+                f'{self.path}: the message of {topic.name} at {seconds:.6f} s does not decode '
+                f'as {topic.type_name}: {_one_line(error)}'
             ) from None
 
     def __enter__(self) -> 'BagReader':
@@ -293,13 +287,11 @@ class BagReader:
             messages = file.messages(piece, names, start, end, self._compressed[number])
         except DamageError as error:
             messages = []
-            if (file.path, piece.offset) not in self._damaged:
-                self._damaged.add((file.path, piece.offset))
-                first, last = ((time - self.start_time) * 1e-9 for time in (piece.start, piece.end))
-                self.warn(
-                    f'{file.path}: damaged at byte {piece.offset} ({error}): {piece.length} bytes '
-                    f'with the messages from {first:.3f} s to {last:.3f} s are left out'
-                )
+            first, last = ((time - self.start_time) * 1e-9 for time in (piece.start, piece.end))
+            self.warn(
+                f'{file.path}: damaged at byte {piece.offset} ({error}): {piece.length} bytes '
+                f'with the messages from {first:.3f} s to {last:.3f} s are left out'
+            )
         # A bag may have more files than a process may have open.
         unread[number] -= 1
         if not unread[number]:
@@ -309,21 +301,11 @@ class BagReader:
     def _make_decoder(self, topic: str) -> Callable[[bytes], Any]:
         if topic not in self.topics:
             raise BagError(f'{self.path}: no topic {topic}')
+        if trouble := self.topics[topic].trouble({}):
+            raise BagError(f'{self.path}: {trouble}')
         channel, schema = self._sources[topic]
-        try:
-            # mcap_ros2's parser also prints the error that it raises.
-            with redirect_stderr(io.StringIO()):
-                decoder = DecoderFactory().decoder_for(channel.message_encoding, schema)
-        except Exception as error:  # as above
-            raise BagError(
-                f'{self.path}: the definition of {self.topics[topic].type_name} for {topic} is '
-                f'invalid: {_one_line(error)}'
-            ) from None
-        if decoder is None:
-            raise BagError(
-                f"{self.path}: {topic} cannot be decoded: expected message encoding 'cdr', schema "
-                f"encoding 'ros2msg', got {self.topics[topic].in_words}"
-            )
+        decoder = DecoderFactory().decoder_for(channel.message_encoding, schema)
+        assert decoder is not None  # as it has a definition in ROS's words
         self._decoders[topic] = decoder
         return decoder
 

@@ -16,7 +16,8 @@ from mcap.stream_reader import StreamReader
 
 from tactile_push.bags.headers import HeaderStamps
 from tactile_push.bags.mcap_records import LARGEST_CHUNK
-from tactile_push.bags.reader import BagError, BagReader, Message, Topic
+from tactile_push.bags.reader import EMPTY_MESSAGE, BagError, BagReader, Message
+from tactile_push.bags.topic import Topic
 
 _PROGRESS_EVERY = 1000  # messages
 _SAMPLE = 16384  # intervals of a topic that are kept for their median; 128 KiB a topic
@@ -71,6 +72,9 @@ def survey(
         f'{count} of {len(bag.topics)} topics cannot be decoded: {words}'
         for words, count in encoded.items()
     ]
+    decodable = [topic for topic in bag.topics.values() if topic.decodes]
+    remarks += filter(None, (topic.trouble({}) for topic in decodable))
+    blank = {topic.name for topic in decodable if not topic.definition.strip()}
     stamps = HeaderStamps(bag)
     surveyed = {name: _TopicSurvey() for name in bag.topics}
     broken: Counter[str] = Counter()
@@ -82,6 +86,10 @@ def survey(
                 stamp = stamps.of(message)
             except BagError:
                 broken[message.topic] += 1
+        elif message.topic in blank and len(message.data) > EMPTY_MESSAGE:
+            blank.remove(message.topic)
+            type_name = bag.topics[message.topic].type_name
+            remarks.append(f'the definition of {type_name} for {message.topic} is missing')
         surveyed[message.topic].add(message.log_time, stamp)
         hear(message, stamp)
         if messages % _PROGRESS_EVERY == 0:

@@ -58,8 +58,8 @@ def seconds(time: int) -> str:
 
 
 def _paths(value: Any, field: str) -> Iterator[str]:
-    if hasattr(value, '__slots__') and list(value.__slots__) != _TIME:
-        joints = _match_joints(value, value) if value._type == _JOINT_STATE else None
+    if hasattr(value, '__slots__') and not _is_time(value):
+        joints = _match_joints(value, value)
         for name in value.__slots__:
             path = f'{field}.{name}' if field else name
             if joints and name in _JOINT_ARRAYS and getattr(value, name):
@@ -87,10 +87,10 @@ def _compare(a: Any, b: Any, field: str, where: str) -> Iterator[Unequal | Lone]
 
 def _compare_parts(a: Any, b: Any, field: str, where: str) -> Iterator[Unequal | Lone]:
     names_a, names_b = list(a.__slots__), list(b.__slots__)
-    if names_a == names_b == _TIME:
+    if _is_time(a) and _is_time(b):
         yield from _compare_times(a, b, field, where)
         return
-    joints = a._type == b._type == _JOINT_STATE and _match_joints(a, b)
+    joints = _match_joints(a, b)
     prefix, place = (f'{path}.' if path else '' for path in (field, where))
     for name in [*names_a, *(name for name in names_b if name not in names_a)]:
         if name not in names_a or name not in names_b:
@@ -106,6 +106,12 @@ def _compare_parts(a: Any, b: Any, field: str, where: str) -> Iterator[Unequal |
                 )
         else:
             yield from _compare(getattr(a, name), getattr(b, name), prefix + name, place + name)
+
+
+def _is_time(value: Any) -> bool:
+    return list(value.__slots__) == _TIME and all(
+        isinstance(getattr(value, name), int) for name in _TIME
+    )
 
 
 def _compare_times(a: Any, b: Any, field: str, where: str) -> Iterator[Unequal]:
@@ -125,8 +131,10 @@ class _Joints:
 
 
 def _match_joints(a: Any, b: Any) -> _Joints | None:
-    """Match two joint states by name; None if their names or arrays do not allow it."""
+    """Match two joint states by name; None if they are none or do not allow it."""
     for state in (a, b):
+        if not _is_joint_state(state):
+            return None
         if len(set(state.name)) != len(state.name):
             return None
         if any(len(getattr(state, name)) not in (0, len(state.name)) for name in _JOINT_ARRAYS):
@@ -136,6 +144,16 @@ def _match_joints(a: Any, b: Any) -> _Joints | None:
         [name for name in a.name if name not in places_b],
         [name for name in b.name if name not in places_a],
         [(name, k, places_b[name]) for name, k in places_a.items() if name in places_b],
+    )
+
+
+def _is_joint_state(value: Any) -> bool:
+    """Return whether it is a joint state as ROS defines it; a bag may define it otherwise."""
+    names = ('name', *_JOINT_ARRAYS)
+    return (
+        value._type == _JOINT_STATE
+        and all(_is_array(getattr(value, name, None)) for name in names)
+        and all(isinstance(name, str) for name in value.name)
     )
 
 
@@ -150,7 +168,7 @@ def _compare_arrays(a: Any, b: Any, field: str, where: str) -> Iterator[Unequal 
         return
     if len(a) == 0 or a == b:
         return
-    if isinstance(a[0], (bool, str)) or hasattr(a[0], '__slots__'):
+    if not all(type(entry) in (int, float) for entry in (a[0], b[0])):
         for k, (value_a, value_b) in enumerate(zip(a, b, strict=True)):
             yield from _compare(value_a, value_b, f'{field}[]', f'{where}[{k}]')
         return
@@ -164,7 +182,7 @@ def _distances(a: Sequence[float], b: Sequence[float]) -> np.ndarray:
     """Return how far the numbers of two arrays are apart, as `_distance` does."""
     if isinstance(a, bytes) and isinstance(b, bytes):
         values = [np.frombuffer(array, np.uint8).astype(float) for array in (a, b)]
-    elif isinstance(a[0], int):
+    elif isinstance(a[0], int) and isinstance(b[0], int):
         # Integers: floating point is not exact for 64 bits.
         return np.array([float(abs(x - y)) for x, y in zip(a, b, strict=True)])
     else:

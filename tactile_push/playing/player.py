@@ -28,7 +28,8 @@ from rclpy.qos import (
 from rclpy.serialization import deserialize_message
 from rosgraph_msgs.msg import Clock as ClockMessage
 
-from tactile_push.bags import BagError, Message, Topic
+from tactile_push.bags import BagError, Message, Topic, schema_text
+from tactile_push.bags.fields import fields_of
 from tactile_push.interface import CLOCK
 from tactile_push.playing.offers import Offer, combined_offer
 from tactile_push.playing.playback import Playback
@@ -261,6 +262,8 @@ def _make_publisher(node: Node, topic: Topic, name: str) -> Publisher:
     encoding = topic.encodings[0]
     if encoding != 'cdr':
         raise LookupError(f'expected messages in cdr, got {encoding}')
+    if not topic.type_hash and _is_another_version(topic):
+        raise LookupError(f'{topic.type_name} is installed in another version')
     profile = profile_of(combined_offer(topic.qos))
     try:
         publisher = node.create_publisher(message_class(topic.type_name), name, profile)
@@ -275,6 +278,16 @@ def _make_publisher(node: Node, topic: Topic, name: str) -> Publisher:
         node.destroy_publisher(publisher)
         raise LookupError(f'{topic.type_name} is installed in another version')
     return publisher
+
+
+def _is_another_version(topic: Topic) -> bool:
+    """Return whether the bag defines other fields than the installed type has."""
+    try:
+        recorded = fields_of(topic.type_name, topic.definition)
+        installed = fields_of(topic.type_name, schema_text(topic.type_name))
+    except (ValueError, LookupError):  # nobody knows
+        return False
+    return bool(recorded) and list(recorded.items()) != list(installed.items())
 
 
 def _is_best_effort(publisher: Publisher) -> bool:

@@ -8,8 +8,8 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from tactile_push.bags import BagError, BagReader
-from tactile_push.fingers import fingers_in, is_own, left_alone
+from tactile_push.bags import BagReader
+from tactile_push.fingers import fingers_in, is_own
 from tactile_push.interface import (
     COMMAND,
     CONTACT,
@@ -77,13 +77,10 @@ def replay(
     OSError
         If a file cannot be read, or the new bag cannot be written.
     """
-    found = fingers_in(bag, READINGS)
-    foreign = left_alone(bag, {TACTILE, JOINT_STATES, PARAMETER_EVENTS, *MADE, *SENSED})
-    if not found:
-        nothing = 'nothing to replay, expected a topic tactile or contact'
-        raise BagError(f'{bag.path}: {"; ".join(filter(None, [nothing, foreign]))}')
-    if foreign:
-        bag.warn(f'{bag.path}: {foreign}')
+    used = {TACTILE, JOINT_STATES, PARAMETER_EVENTS, *MADE, *SENSED}
+    found = fingers_in(
+        bag, READINGS, used, 'nothing to replay, expected a topic tactile or contact'
+    )
     file = ParameterFile(config)
     file.check(found)
     replayed = []

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from tactile_push.bags import BagError, BagReader
-from tactile_push.fingers import fingers_in, is_own, left_alone
+from tactile_push.bags import BagReader
+from tactile_push.fingers import fingers_in, is_own
 from tactile_push.interface import (
     CONTACT,
     CONTROLLER_STATE,
@@ -83,10 +83,8 @@ def node_parameters(bag: BagReader) -> dict[str, dict[str, Any]] | None:
 
 def namespaces(bag: BagReader) -> list[str]:
     """Return the fingers' namespaces, '' or such as '/left', first the one with most topics."""
-    found = fingers_in(bag, SHOWN)
-    if not found:
-        nothing = f'nothing to report, expected messages on {", ".join(SHOWN)}'
-        raise BagError(f'{bag.path}: {"; ".join(filter(None, [nothing, foreign_in(bag)]))}')
+    nothing = f'nothing to report, expected messages on {", ".join(SHOWN)}'
+    found = fingers_in(bag, SHOWN, {*SHOWN, DIAGNOSTICS}, nothing)
     return sorted(found, key=lambda name: (-len(found[name].intersection(SHOWN)), name))
 
 
@@ -94,11 +92,6 @@ def topics_of(bag: BagReader, namespace: str) -> dict[str, str]:
     """Return the topics of a finger that a report shows: full name to relative name."""
     wanted = {f'{namespace}/{own}': own for own in SHOWN} | {DIAGNOSTICS: DIAGNOSTICS}
     return {topic: own for topic, own in wanted.items() if is_own(bag, topic)}
-
-
-def foreign_in(bag: BagReader) -> str:
-    """Return a clause that tells the topics that are named like those of a report and are not."""
-    return left_alone(bag, {*SHOWN, DIAGNOSTICS})
 
 
 def read_tables(
@@ -130,7 +123,7 @@ def _time(stamp: Any, log_time: int, start: int) -> float:
 
 
 def _status_label(status: Any) -> Label | None:
-    level = LEVELS[min(ord(status.level) if isinstance(status.level, bytes) else status.level, 3)]
+    level = LEVELS[max(0, min(status.level, 3))]
     return None if level is None else (level, status.message)
 
 

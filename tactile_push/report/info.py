@@ -10,7 +10,7 @@ from typing import Any
 
 from tactile_push.bags import BagError, BagReader, Message
 from tactile_push.bags.survey import FileInfo, TopicInfo, survey
-from tactile_push.fingers import is_own, left_alone
+from tactile_push.fingers import definition_trouble, is_own, left_alone
 from tactile_push.interface import CONTROLLER_STATE, VERSION_NOTE, own_name
 from tactile_push.report.columns import TAKEN, Columns, node_parameters, positions
 from tactile_push.report.merit import PushFigures, push_figures
@@ -49,11 +49,13 @@ def bag_info(
         remarks.append(str(error))
     if foreign := left_alone(bag, {CONTROLLER_STATE}):
         remarks.append(foreign)
-    namespaces = {
-        name.removesuffix(f'/{CONTROLLER_STATE}')
-        for name, topic in bag.topics.items()
-        if own_name(name) == CONTROLLER_STATE and is_own(bag, name) and topic.decodes
-    }
+    namespaces = set()
+    for name, topic in sorted(bag.topics.items()):
+        trouble = definition_trouble(bag, name)
+        if topic.decodes and trouble and not topic.trouble({}):  # which the survey says
+            remarks.append(trouble)
+        if own_name(name) == CONTROLLER_STATE and is_own(bag, name) and not trouble:
+            namespaces.add(name.removesuffix(f'/{CONTROLLER_STATE}'))
     states = {f'{namespace}/{CONTROLLER_STATE}': Columns() for namespace in sorted(namespaces)}
     undecoded: Counter[str] = Counter()
 
@@ -87,9 +89,13 @@ def bag_info(
         version=bag.notes.get(VERSION_NOTE),
         parameters=parameters,
         pushes=pushes,
-        remarks=[
-            *remarks,
-            *found.remarks,
-            *(f'{count} messages of {name} do not decode' for name, count in undecoded.items()),
-        ],
+        remarks=list(
+            dict.fromkeys(
+                [
+                    *remarks,
+                    *found.remarks,
+                    *(f'{n} messages of {name} do not decode' for name, n in undecoded.items()),
+                ]
+            )
+        ),
     )

@@ -24,7 +24,6 @@ from tactile_push.interface import (
 from tactile_push.report.columns import (
     Statuses,
     Table,
-    foreign_in,
     namespaces,
     node_parameters,
     read_tables,
@@ -116,8 +115,6 @@ def read_run(bag: BagReader, progress: Callable[[int], None] = lambda done: None
     ticks = tables.get(CONTROLLER_STATE, {})
     pushed = pushed_object(parameters, namespace)
     warnings = [pushed.remark] if ticks and pushed.remark else []
-    if foreign := foreign_in(bag):
-        warnings.append(foreign)
     if others:
         warnings.append(f'not shown: the topics in {", ".join(name or "/" for name in others)}')
     return Run(

@@ -6,7 +6,7 @@ import pytest
 from rosbags.interfaces import Nodetype
 
 from support.bag_making import TYPES, encode, of_type, write_bag
-from tactile_push.bags import BagError, BagReader
+from tactile_push.bags import BagError, BagReader, BagWriter
 from tactile_push.bags.headers import HeaderStamps
 from tactile_push.bags.reader import Message
 
@@ -34,6 +34,23 @@ def test_header_is_found_where_it_is_the_first_field(stamps):
     assert '/marker' in stamps
     for without in ('/markers', '/clock', '/header', '/empty', '/nowhere'):
         assert without not in stamps
+
+
+OTHER_HEADERS = [
+    'int32 data\n',
+    'float64 sec\nfloat64 nanosec\n',
+    'builtin_interfaces/Time stamp\n',
+    'string frame_id\nbuiltin_interfaces/Time stamp\n',
+]
+
+
+@pytest.mark.parametrize('header', ['', *OTHER_HEADERS])
+def test_header_of_another_shape_is_none(tmp_path, header):
+    text = f'std_msgs/Header header\n{"=" * 80}\nMSG: std_msgs/Header\n{header}' if header else ''
+    with BagWriter(tmp_path / 'bag') as writer:
+        writer.add_topic('/a', 'a_msgs/msg/A', definition=text or 'std_msgs/Header header')
+    with BagReader(tmp_path / 'bag') as reader:
+        assert '/a' not in HeaderStamps(reader)
 
 
 @pytest.mark.parametrize('stamp', [0, 1, STAMP, -1, -(2**31) * 10**9, 2**31 * 10**9 - 1])

@@ -9,8 +9,9 @@ from functools import partial
 
 import pytest
 
-from support.bag_making import write_bag
-from support.bags_to_compare import STATE, clocks, states
+from support.bad_definitions import BAD_DEFINITIONS
+from support.bag_making import write_bag, write_file
+from support.bags_to_compare import JOINT_STATE, STATE, clocks, states
 
 
 @pytest.fixture
@@ -134,6 +135,25 @@ def test_command_refuses_a_message_that_does_not_decode(tmp_path, diff):
     assert (status, out) == (2, '')
     assert len(err.splitlines()) == 1
     assert STATE in err
+
+
+@pytest.mark.parametrize('definition', [text for text, _ in BAD_DEFINITIONS.values()])
+def test_command_compares_other_definitions_or_says_in_one_line_what_is_wrong(
+    tmp_path, diff, definition
+):
+    a = write_file(tmp_path / 'a.mcap', {STATE: states()})
+    definitions = {JOINT_STATE: definition or ' '}
+    b = write_file(tmp_path / 'b.mcap', {STATE: states()}, definitions=definitions)
+    for bags in ((a, b), (b, a)):
+        status, out, err = diff(*bags)
+        if status == 1:
+            assert f'{STATE}: A and B define {JOINT_STATE} differently' in out
+            assert err == ''
+        else:
+            assert (status, out) == (2, '')
+            (line,) = err.splitlines()
+            assert STATE in line and JOINT_STATE in line
+    assert diff(b, b)[0] == 0
 
 
 def test_command_reads_on_with_a_warning_where_a_bag_is_cut_off(bags, diff, tmp_path):

@@ -27,7 +27,8 @@ class MadeBag:
         definition = schema_text(JOINT_STATE)
         self.path = 'made'
         self.topics = {
-            name: SimpleNamespace(definition=definition, decodes=True) for name in topics
+            name: SimpleNamespace(type_name=JOINT_STATE, definition=definition, decodes=True)
+            for name in topics
         }
         self.most_read = 0
         self._messages = [

@@ -361,6 +361,34 @@ def test_topics_of_types_that_ros_does_not_know_are_left_out_with_one_warning(gr
         assert words in warning
 
 
+OTHER_NUMBERS = [
+    'int32 data',
+    'int64 value',
+    'int64[] data',
+    'int64 data\nint64 more',
+    'string data',
+]
+
+
+@pytest.mark.parametrize('definition', OTHER_NUMBERS)
+def test_type_that_the_bag_defines_otherwise_is_left_out_without_a_hash_too(
+    graph, tmp_path, definition
+):
+    write(tmp_path / 'bag', [0], definition=definition)
+    with pytest.raises(BagError, match='no topic of the bag can be published'):
+        graph.play(part_of(BagReader(tmp_path / 'bag')))
+    assert '/number (std_msgs/msg/Int64 is installed in another version)' in graph.warnings[0]
+
+
+@pytest.mark.parametrize('definition', ['# a number\nint64   data  # of it', '', 'int64 data['])
+def test_type_that_may_be_the_same_is_played(graph, tmp_path, definition):
+    graph.listen(Int64, '/number')
+    write(tmp_path / 'bag', [0], definition=definition)
+    graph.play(part_of(BagReader(tmp_path / 'bag')))
+    graph.spin_to_the_end()
+    assert graph.numbers() == due(0)
+
+
 def test_bag_without_anything_that_can_be_published_is_refused(graph, tmp_path):
     with pytest.raises(BagError, match='bag.mcap: no topic of the bag can be published'):
         graph.play(part_of(write_strange(tmp_path / 'bag.mcap', with_number=False)))

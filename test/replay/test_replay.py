@@ -9,9 +9,11 @@ earlier version made them: what the present code makes of their readings must no
 """
 
 import hashlib
+import re
 
 import pytest
 
+from support.bad_definitions import BAD_DEFINITIONS
 from support.bag_copies import DATA, contents, copied, replayed, with_topics
 from support.foreign_topics import BOOL, NAMESAKES, OTHERS
 from tactile_push.bags import BagError, BagReader, BagWriter
@@ -167,6 +169,26 @@ def test_parameter_events_of_another_type_are_left_alone(tmp_path, capsys):
     assert main(['replay', str(bag), '-o', str(tmp_path / 'out')]) == 0
     assert '/parameter_events (expected rcl_interfaces/' in capsys.readouterr().err
     assert main(['diff', str(bag), str(tmp_path / 'out')]) == 0
+
+
+@pytest.mark.parametrize(('definition', 'wrong'), BAD_DEFINITIONS.values(), ids=BAD_DEFINITIONS)
+def test_bad_definition_of_a_topic_that_is_needed_is_refused_in_one_line(
+    tmp_path, capsys, definition, wrong
+):
+    topic = '/push_controller/state'
+    bag = copied(DATA / 'block', tmp_path / 'bag', definitions={topic: definition})
+    for command in ('replay', 'estimate', 'report'):
+        assert main([command, str(bag)]) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert line.startswith(f'tactile_push {command}: {bag}: the definition of sensor_msgs/msg/')
+        assert f'for {topic} ' in line
+        assert re.search(wrong, line)
+
+
+def test_bad_definition_of_a_topic_that_is_not_needed_does_not_matter(tmp_path):
+    bag = copied(DATA / 'block', tmp_path / 'bag', definitions={'/ground_truth/state': ''})
+    (comparison,) = replayed(bag, out=tmp_path / 'out')
+    assert not comparison.different()
 
 
 def test_bag_of_foreign_topics_alone_is_refused_in_one_line_that_names_them(tmp_path, capsys):

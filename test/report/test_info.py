@@ -4,11 +4,13 @@
 
 import json
 import math
+import re
 
 import numpy as np
 import pytest
 from mcap.writer import CompressionType, Writer
 
+from support.bad_definitions import BAD_DEFINITIONS
 from support.bag_making import joint_state, write_bag, write_file, write_foreign_bag
 from support.bags_to_know import BAND, CLOCK, JOINT_STATE, NOTES, PERIOD, STATE, clocks, pushes
 from tactile_push.bags import BagReader, schema_text
@@ -194,6 +196,26 @@ def test_state_of_another_type_is_left_out(tmp_path):
     info = info_of(write_bag(tmp_path / 'bag', {STATE: clocks(1)}))
     assert info.pushes == {}
     assert info.remarks == [f'left alone: {STATE} (expected {JOINT_STATE}, got {CLOCK})']
+
+
+@pytest.mark.parametrize(('definition', 'wrong'), BAD_DEFINITIONS.values(), ids=BAD_DEFINITIONS)
+def test_bad_definition_is_marked(tmp_path, definition, wrong):
+    path = tmp_path / 'x.mcap'
+    topics = {STATE: pushes(0.0, 20), '/wheels': pushes(0.0, 20), '/clock': clocks(1, 2)}
+    info = info_of(write_file(path, topics, definitions={JOINT_STATE: definition or ' '}))
+    assert info.pushes == {}
+    for topic in (STATE, '/wheels'):
+        (remark,) = [line for line in info.remarks if f'for {topic} ' in line]
+        assert remark.startswith(f'the definition of {JOINT_STATE} for {topic} ')
+        assert re.search(wrong, remark)
+    assert [topic.messages for topic in info.topics] == [2, 20, 20]
+
+
+def test_missing_definition_of_any_type_is_marked(tmp_path):
+    empty = ('std_msgs/msg/Empty', [(1, b'\0\1\0\0\0')])
+    topics = {'/empty': empty, '/clock': clocks(1)}
+    info = info_of(write_file(tmp_path / 'x.mcap', topics, definitions={CLOCK: '\n'}))
+    assert info.remarks == [f'the definition of {CLOCK} for /clock is missing']
 
 
 def test_what_cannot_be_decoded_is_counted_all_the_same(tmp_path):

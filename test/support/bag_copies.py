@@ -13,12 +13,15 @@ from tactile_push.replay import replay
 DATA = Path(__file__).parents[1] / 'data'
 
 
-def copied(bag, out, rename=lambda topic: topic, keep=lambda topic: True, note=True):
-    """Copy a bag, or a part of it, under other names."""
+def copied(
+    bag, out, rename=lambda topic: topic, keep=lambda topic: True, note=True, definitions=()
+):
+    """Copy a bag, or a part of it, under other names, with other definitions of some topics."""
     with BagReader(bag) as reader, BagWriter(out) as writer:
         for topic in reader.topics.values():
             if keep(topic.name):
-                writer.add_topic(rename(topic.name), topic.type_name, definition=topic.definition)
+                definition = dict(definitions).get(topic.name, topic.definition)
+                writer.add_topic(rename(topic.name), topic.type_name, definition=definition)
         for message in reader.messages():
             if keep(message.topic):
                 writer.write(
