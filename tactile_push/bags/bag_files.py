@@ -18,6 +18,8 @@ _LOADER = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)
 # Longer than that of a bag with a thousand files and topics [characters].
 _LARGEST = 1 << 24
 
+_SHOWN = 60  # characters of what is not understood
+
 # Name, number and suffix that rosbag2 gives a file.
 _FILE_NAME = re.compile(r'(.*?)(\d*)\.mcap(\.zstd)?')
 
@@ -41,24 +43,34 @@ def load_yaml(text: str) -> Any:
         raise ValueError(' '.join(str(error).split())) from None
 
 
-def parse_metadata(information: Any) -> BagMetadata:
-    """Return what ``rosbag2_bagfile_information`` says; ValueError if it is something else."""
+def parse_metadata(information: Any, warn: Callable[[str], None]) -> BagMetadata:
+    """Return what ``rosbag2_bagfile_information`` says; ValueError if it is something else.
+
+    Notes of another shape are warned of and left out.
+    """
     try:
+        files = information.get('relative_file_paths') or ()
+        if isinstance(files, str):
+            raise ValueError(f'relative_file_paths: expected a list, got {files!r}')
+        notes = information.get('custom_data') or {}
+        if not isinstance(notes, dict):
+            warn(f'custom_data: left out: expected texts by name, got {str(notes)[:_SHOWN]!r}')
+            notes = {}
         is_compressed = str(information.get('compression_mode', '')).lower() == 'message'
         return BagMetadata(
-            tuple(str(file) for file in information.get('relative_file_paths') or ()),
+            tuple(str(file) for file in files),
             int(information['message_count']),
             int(information['starting_time']['nanoseconds_since_epoch'])
             + int(information['duration']['nanoseconds']),
             str(information.get('compression_format')) if is_compressed else '',
-            {str(key): str(value) for key, value in (information.get('custom_data') or {}).items()},
+            {str(key): str(value) for key, value in notes.items()},
         )
     except (AttributeError, KeyError, TypeError, ValueError, OverflowError) as error:
         raise ValueError(f'bad rosbag2_bagfile_information: {error!r}') from None
 
 
-def read_metadata(folder: Path) -> BagMetadata:
-    """Read the ``metadata.yaml`` in the folder of a bag.
+def read_metadata(folder: Path, warn: Callable[[str], None]) -> BagMetadata:
+    """Read the ``metadata.yaml`` in the folder of a bag; notes of another shape are warned of.
 
     Raises FileNotFoundError if there is none, OSError or ValueError if it cannot be read, and
     BagError if the bag is not stored as MCAP.
@@ -71,7 +83,7 @@ def read_metadata(folder: Path) -> BagMetadata:
     if not isinstance(content, dict) or 'rosbag2_bagfile_information' not in content:
         raise ValueError('expected rosbag2_bagfile_information, got something else')
     information = content['rosbag2_bagfile_information']
-    metadata = parse_metadata(information)
+    metadata = parse_metadata(information, lambda line: warn(f'{folder / "metadata.yaml"}: {line}'))
     storage = information.get('storage_identifier')
     if storage != 'mcap':
         raise BagError(_foreign(folder, storage))

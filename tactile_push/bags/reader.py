@@ -177,7 +177,7 @@ class BagReader:
         if not self.path.is_dir():
             return BagMetadata()
         try:
-            return read_metadata(self.path)
+            return read_metadata(self.path, self.warn)
         except FileNotFoundError:
             return BagMetadata()
         except (OSError, ValueError) as error:
@@ -251,7 +251,8 @@ class BagReader:
                 self.notes.update(record.metadata)
                 continue
             try:
-                own = parse_metadata(load_yaml(record.metadata.get('serialized_metadata', '')))
+                text = load_yaml(record.metadata.get('serialized_metadata', ''))
+                own = parse_metadata(text, lambda line: self.warn(f'{file.path}: {line}'))
             except ValueError as error:
                 self.warn(f'{file.path}: metadata of rosbag2 not used: {error}')
                 continue

@@ -43,6 +43,29 @@ class Parameter:
         kind = 'a whole number' if type(self.default) is int else 'a number with a decimal point'
         return f'{kind}{unit} from {self.lower:g} to {self.upper:g}'
 
+    def takes(self, value: Any) -> bool:
+        """Return whether the node takes a value.
+
+        Parameters
+        ----------
+        value : object
+            Value that somebody wants the parameter to have.
+
+        Returns
+        -------
+        bool
+            False if it has another type, lies out of range or is none of the choices.
+        """
+        fits = type(value) is type(self.default)
+        if fits and isinstance(value, int | float) and not isinstance(value, bool):
+            fits = self.lower <= value <= self.upper
+        if fits and isinstance(value, list):
+            kind = type(self.default[0]) if self.default else str
+            fits = all(type(item) is kind for item in value)
+        if fits and self.choices:
+            fits = value in self.choices
+        return fits
+
     def check(self, value: Any) -> None:
         """Refuse a value that the node would refuse.
 
@@ -54,17 +77,9 @@ class Parameter:
         Raises
         ------
         ValueError
-            If it has another type, lies out of range or is none of the choices.
+            If the node does not take it.
         """
-        fits = type(value) is type(self.default)
-        if fits and isinstance(value, int | float) and not isinstance(value, bool):
-            fits = self.lower <= value <= self.upper
-        if fits and isinstance(value, list):
-            kind = type(self.default[0]) if self.default else str
-            fits = all(type(item) is kind for item in value)
-        if fits and self.choices:
-            fits = value in self.choices
-        if not fits:
+        if not self.takes(value):
             raise ValueError(f'parameter {self.name}: expected {self.expected()}, got {value!r}')
 
 
@@ -103,6 +118,26 @@ class NodeParameters:
             One for each field.
         """
         return tuple(replace(one.metadata['known'], name=one.name) for one in fields(cls))
+
+    @classmethod
+    def taken(cls, given: Mapping[str, Any]) -> dict[str, Any]:
+        """Return those of some values that the node takes.
+
+        Parameters
+        ----------
+        given : mapping of str to object
+            Values by name.
+
+        Returns
+        -------
+        dict of str to object
+            Without names that the node does not know, and without values that it refuses.
+        """
+        return {
+            known.name: given[known.name]
+            for known in cls.declared()
+            if known.name in given and known.takes(given[known.name])
+        }
 
     @classmethod
     def of(cls: type[P], given: Mapping[str, Any]) -> P:

@@ -29,7 +29,7 @@ from tactile_push.pipeline.stamps import epoch_of, seconds_since, stamp_of
 from tactile_push.replay.messages import still_free
 from tactile_push.replay.new_bag import new_bag
 from tactile_push.replay.object_history import ObjectFigures, ObjectHistory
-from tactile_push.replay.parameters import FingerParameters, ParameterFile
+from tactile_push.replay.parameters import FingerParameters, ParameterFile, parameters_in
 
 INPUTS = (CONTROLLER_STATE, TRUE_STATE)
 MADE = (SENSING_STATE, OBJECT_POSE)
@@ -75,6 +75,7 @@ def estimate(
         'moved'
     )
     found = fingers_in(bag, [CONTROLLER_STATE], {*INPUTS, *MADE}, nothing)
+    recorded = parameters_in(bag)
     file = ParameterFile(config)
     file.check(found, [ACTIVE_SENSING])
     seconds = partial(seconds_since, epoch_of(bag.start_time // 10**9))
@@ -82,7 +83,7 @@ def estimate(
     histories: dict[str, ObjectHistory] = {}
     for namespace in found:
         wanted = {ACTIVE_SENSING: sensing or {}}
-        parameters = FingerParameters.of(bag.notes, namespace, file, wanted)
+        parameters = FingerParameters.of(recorded, namespace, file, wanted)
         values = ActiveSensingParameters.of(parameters.sensing)
         steps[namespace] = Sensing(make_sensing(values), seconds)
         known = {*parameters.recorded[ACTIVE_SENSING], *parameters.wanted[ACTIVE_SENSING]}

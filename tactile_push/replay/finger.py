@@ -130,9 +130,8 @@ class Finger:
             (PUSH_CONTROLLER, self._controller, PushControllerParameters),
         ):
             if node == f'{self._namespace}/{own}' and isinstance(taker, FOLLOWS_CHANGES):
-                known = {parameter.name for parameter in kind.declared()}
                 wanted = self._parameters.wanted[own]
-                taker.change({k: v for k, v in values.items() if k in known and k not in wanted})
+                taker.change({k: v for k, v in kind.taken(values).items() if k not in wanted})
 
     def finish(self) -> None:
         """Make the ticks that still wait, and write what is left as it was recorded."""

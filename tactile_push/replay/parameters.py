@@ -2,19 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parameters of a replay: those of the recorded nodes, and those that somebody wants instead."""
 
-import json
 from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from tactile_push.bags import BagReader
 from tactile_push.interface import (
     ACTIVE_SENSING,
     CONTACT_GEOMETRY,
-    PARAMETERS_NOTE,
     PUSH_CONTROLLER,
     node_in,
 )
 from tactile_push.parameters import PARAMETERS
+from tactile_push.parameters.recorded import recorded_parameters
 from tactile_push.parameters.ros_file import matches, read_sections
 from tactile_push.parameters.slips import meant
 
@@ -100,14 +100,13 @@ class FingerParameters(NamedTuple):
     @classmethod
     def of(
         cls,
-        notes: Mapping[str, str],
+        everything: Mapping[str, Mapping[str, Any]],
         namespace: str,
         file: ParameterFile,
         wanted: Mapping[str, Mapping[str, Any]],
     ) -> 'FingerParameters':
-        """Collect the notes of a bag, a file, and values by node that come before both."""
-        everything = json.loads(notes.get(PARAMETERS_NOTE, '{}'))
-        recorded = {node: everything.get(node_in(namespace, node), {}) for node in NODES}
+        """Collect what a bag recorded, a file, and values by node that come before both."""
+        recorded = {node: dict(everything.get(node_in(namespace, node), {})) for node in NODES}
         in_file = file.values(namespace)
         senses = bool(recorded[ACTIVE_SENSING]) or file.names(namespace, ACTIVE_SENSING)
         return cls(recorded, {n: in_file[n] | dict(wanted.get(n, {})) for n in NODES}, senses)
@@ -148,6 +147,14 @@ class FingerParameters(NamedTuple):
             if known.name in decided and known.name in self.wanted[node]
             if self.wanted[node][known.name] != self.recorded[node].get(known.name, known.default)
         ]
+
+
+def parameters_in(bag: BagReader) -> dict[str, dict[str, Any]]:
+    """Return the parameters that a bag recorded, by node; what is left out is warned of."""
+    found, left_out = recorded_parameters(bag.notes)
+    for line in left_out:
+        bag.warn(f'{bag.path}: {line}')
+    return found or {}
 
 
 def changed_parameters(event: Any) -> tuple[str, dict[str, Any]]:

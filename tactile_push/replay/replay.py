@@ -27,7 +27,12 @@ from tactile_push.replay.comparison import Comparison
 from tactile_push.replay.finger import Finger
 from tactile_push.replay.messages import still_free
 from tactile_push.replay.new_bag import new_bag
-from tactile_push.replay.parameters import FingerParameters, ParameterFile, changed_parameters
+from tactile_push.replay.parameters import (
+    FingerParameters,
+    ParameterFile,
+    changed_parameters,
+    parameters_in,
+)
 
 READINGS = (TACTILE, GEOMETRY_STATE, CONTACT)  # of which a replay needs one
 MADE = (CONTACT, GEOMETRY_STATE, CONTROLLER_STATE, COMMAND)
@@ -81,12 +86,13 @@ def replay(
     found = fingers_in(
         bag, READINGS, used, 'nothing to replay, expected a topic tactile or contact'
     )
+    recorded = parameters_in(bag)
     file = ParameterFile(config)
     file.check(found)
     replayed = []
     for namespace, topics in found.items():
         wanted = {PUSH_CONTROLLER: controller or {}}
-        parameters = FingerParameters.of(bag.notes, namespace, file, wanted)
+        parameters = FingerParameters.of(recorded, namespace, file, wanted)
         replayed.append((namespace, Finger(namespace, topics, parameters, bag)))
     handlers = {
         f'{namespace}/{topic}': handler

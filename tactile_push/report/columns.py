@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a bag says, as columns of numbers."""
 
-import json
 import math
 from array import array
 from collections import defaultdict
@@ -21,7 +20,6 @@ from tactile_push.interface import (
     GEOMETRY_STATE,
     JOINT_STATE_TYPE,
     OBJECT_POSE,
-    PARAMETERS_NOTE,
     SENSING_STATE,
     TACTILE,
     TOPICS,
@@ -60,25 +58,6 @@ Table = dict[str, Column]
 """Columns by name; 'time' counts from the start of the bag [s] and does not decrease."""
 Statuses = dict[str, list[tuple[float, Label | None]]]
 """When and what the diagnostics said, by name."""
-
-
-def node_parameters(bag: BagReader) -> dict[str, dict[str, Any]] | None:
-    """Return the recorded parameters by node, None if there are none.
-
-    Raises a ValueError if they make no sense.
-    """
-    text = bag.notes.get(PARAMETERS_NOTE)
-    if text is None:
-        return None
-    try:
-        parameters = json.loads(text)
-    except ValueError:
-        parameters = None
-    if not isinstance(parameters, dict) or not all(
-        isinstance(values, dict) for values in parameters.values()
-    ):
-        raise ValueError('the recorded parameters cannot be read: expected JSON, node to values')
-    return parameters
 
 
 def namespaces(bag: BagReader) -> list[str]:

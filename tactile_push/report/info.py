@@ -12,7 +12,8 @@ from tactile_push.bags import BagError, BagReader, Message
 from tactile_push.bags.survey import FileInfo, TopicInfo, survey
 from tactile_push.fingers import definition_trouble, is_own, left_alone
 from tactile_push.interface import CONTROLLER_STATE, VERSION_NOTE, own_name
-from tactile_push.report.columns import TAKEN, Columns, node_parameters, positions
+from tactile_push.parameters.recorded import recorded_parameters
+from tactile_push.report.columns import TAKEN, Columns, positions
 from tactile_push.report.merit import PushFigures, push_figures
 from tactile_push.report.pushed import pushed_object
 
@@ -41,12 +42,7 @@ def bag_info(
     Theta counts as settled within `band` of its desired value [rad]. `progress` is told now and
     then how many messages have been read.
     """
-    remarks: list[str] = []
-    try:
-        parameters = node_parameters(bag)
-    except ValueError as error:
-        parameters = None
-        remarks.append(str(error))
+    parameters, remarks = recorded_parameters(bag.notes)
     if foreign := left_alone(bag, {CONTROLLER_STATE}):
         remarks.append(foreign)
     namespaces = set()

@@ -21,11 +21,11 @@ from tactile_push.interface import (
     TRUE_STATE,
     VERSION_NOTE,
 )
+from tactile_push.parameters.recorded import recorded_parameters
 from tactile_push.report.columns import (
     Statuses,
     Table,
     namespaces,
-    node_parameters,
     read_tables,
     topics_of,
 )
@@ -105,16 +105,15 @@ def read_run(bag: BagReader, progress: Callable[[int], None] = lambda done: None
     """
     namespace, *others = namespaces(bag)
     tables, statuses = read_tables(bag, topics_of(bag, namespace), progress)
-    try:
-        parameters = node_parameters(bag) or {}
-    except ValueError:
-        parameters = {}
+    recorded, warnings = recorded_parameters(bag.notes)
+    parameters = recorded or {}
     plant = parameters.get(plant_in(namespace, parameters))
     duration = (bag.end_time - bag.start_time) * 1e-9
     series = _series(tables)
     ticks = tables.get(CONTROLLER_STATE, {})
     pushed = pushed_object(parameters, namespace)
-    warnings = [pushed.remark] if ticks and pushed.remark else []
+    if ticks and pushed.remark:
+        warnings.append(pushed.remark)
     if others:
         warnings.append(f'not shown: the topics in {", ".join(name or "/" for name in others)}')
     return Run(

@@ -93,6 +93,7 @@ BAD_METADATA = {
     'half': b'rosbag2_bagfile_information:\n  version: 9\n',
     'deep': b'[' * 200_000,
     'words for numbers': metadata_of('bag_0.mcap', count='many').encode(),
+    'one name for a list of files': metadata_of('x').replace('\n  - x', ' bag_0.mcap').encode(),
     'a folder': None,
 }
 
@@ -157,6 +158,22 @@ def test_unknown_message_compression_is_refused(tmp_path):
     )
     with pytest.raises(BagError, match='expected messages compressed with zstd, got fancy'):
         BagReader(tmp_path, refuse)
+
+
+@pytest.mark.parametrize('notes', [['a', 'b'], 'a text', 3, [{'operator': 'ann'}]], ids=str)
+def test_notes_of_another_shape_are_left_out_and_the_rest_of_the_metadata_is_used(tmp_path, notes):
+    written = some_messages(4)
+    for number, message in enumerate(written):
+        (tmp_path / f'bag_{number}.mcap').write_bytes(mcap_bytes([message]))
+    (tmp_path / 'metadata.yaml').write_text(
+        metadata_of('bag_3.mcap', 'bag_1.mcap', custom_data=notes)
+    )
+    warnings = []
+    with BagReader(tmp_path, warnings.append) as reader:
+        assert [file.name for file in reader.files] == ['bag_3.mcap', 'bag_1.mcap']
+        assert reader.notes == {}
+    (line,) = warnings
+    assert line.startswith(f'{tmp_path}/metadata.yaml: custom_data: left out: expected texts by na')
 
 
 def test_notes_of_metadata_records_and_of_the_metadata_file(tmp_path):

@@ -4,6 +4,7 @@
 
 import yaml
 
+from support.bag_by_rosbags import refuse
 from tactile_push.bags.bag_files import BagMetadata, parse_metadata
 from tactile_push.bags.metadata import FileMetadata, Messages, TopicMetadata, bag_metadata, to_yaml
 
@@ -15,7 +16,7 @@ def test_written_metadata_are_read():
     file = FileMetadata('bag_0.mcap', messages)
     topic = TopicMetadata('/clock', 'rosgraph_msgs/msg/Clock', [{'depth': 3}], 'RIHS01_0', 3)
     text = to_yaml(bag_metadata(messages, [topic], [file], {'operator': 'ann'}))
-    assert parse_metadata(yaml.safe_load(text)) == BagMetadata(
+    assert parse_metadata(yaml.safe_load(text), refuse) == BagMetadata(
         ('bag_0.mcap',), 3, 11, '', {'operator': 'ann'}
     )
 

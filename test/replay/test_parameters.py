@@ -5,11 +5,13 @@ from types import SimpleNamespace
 
 import pytest
 
+from tactile_push.parameters.recorded import recorded_parameters
 from tactile_push.replay.parameters import FingerParameters, ParameterFile, changed_parameters
 
 
-def recorded_parameters(notes, namespace):
-    return FingerParameters.of(notes, namespace, ParameterFile(None), {}).recorded
+def parameters_of(notes, namespace):
+    found, _ = recorded_parameters(notes)
+    return FingerParameters.of(found or {}, namespace, ParameterFile(None), {}).recorded
 
 
 def sensing_parameters(recorded, wanted):
@@ -27,11 +29,11 @@ def test_parameters_of_a_finger_are_those_of_its_namespace():
             }
         )
     }
-    assert recorded_parameters(notes, '')['push_controller'] == {'kp': 0.05}
-    assert recorded_parameters(notes, '')['contact_geometry'] == {}
-    assert recorded_parameters(notes, '/left')['push_controller'] == {'kp': 0.06}
-    assert recorded_parameters(notes, '/left')['contact_geometry'] == {'finger_radius': 0.01}
-    assert recorded_parameters({}, '')['push_controller'] == {}
+    assert parameters_of(notes, '')['push_controller'] == {'kp': 0.05}
+    assert parameters_of(notes, '')['contact_geometry'] == {}
+    assert parameters_of(notes, '/left')['push_controller'] == {'kp': 0.06}
+    assert parameters_of(notes, '/left')['contact_geometry'] == {'finger_radius': 0.01}
+    assert parameters_of({}, '')['push_controller'] == {}
 
 
 @pytest.mark.parametrize(

@@ -14,9 +14,11 @@ import re
 import pytest
 
 from support.bad_definitions import BAD_DEFINITIONS
+from support.bad_notes import BAD_NOTES
 from support.bag_copies import DATA, contents, copied, replayed, with_topics
+from support.bag_making import encode, write_file
 from support.foreign_topics import BOOL, NAMESAKES, OTHERS
-from tactile_push.bags import BagError, BagReader, BagWriter
+from tactile_push.bags import BagError, BagReader, BagWriter, schema_text
 from tactile_push.cli import main
 from tactile_push.control import STOP_REASONS
 
@@ -188,6 +190,38 @@ def test_bad_definition_of_a_topic_that_is_needed_is_refused_in_one_line(
 def test_bad_definition_of_a_topic_that_is_not_needed_does_not_matter(tmp_path):
     bag = copied(DATA / 'block', tmp_path / 'bag', definitions={'/ground_truth/state': ''})
     (comparison,) = replayed(bag, out=tmp_path / 'out')
+    assert not comparison.different()
+
+
+@pytest.mark.parametrize(('text', 'words'), BAD_NOTES.values(), ids=BAD_NOTES)
+def test_notes_of_another_shape_are_warned_of_and_left_out(tmp_path, capsys, text, words):
+    bag = with_topics(copied(DATA / 'block', tmp_path / 'a', note=False), tmp_path / 'b')
+    write_file(bag / 'notes_0.mcap', {}, notes={'tactile_push.parameters': text})
+    for command in ('replay', 'estimate', 'report'):
+        out = ['-o', str(tmp_path / 'page.html')] if command == 'report' else []
+        assert main([command, str(bag), *out]) == 0
+        lines = capsys.readouterr().err.splitlines()
+        (told,) = [line for line in lines if words in line]
+        assert told.startswith(f'tactile_push {command}: warning: ')
+
+
+EVENT = 'rcl_interfaces/msg/ParameterEvent'
+REFUSED = [
+    ('push_controller', 'contact_timeout', {'type': 3, 'double_value': -1.0}),
+    ('push_controller', 'max_speed', {'type': 4, 'string_value': 'fast'}),
+    ('push_controller', 'max_acceleration', {'type': 9}),
+    ('contact_geometry', 'jump_tolerance', {'type': 1, 'bool_value': True}),
+    ('contact_geometry', 'max_theta_rate', {'type': 200}),
+]
+
+
+@pytest.mark.parametrize(('node', 'name', 'value'), REFUSED, ids=[name for _, name, _ in REFUSED])
+def test_change_that_a_node_refuses_is_none(tmp_path, node, name, value):
+    change = encode(EVENT, node=f'/{node}', changed_parameters=[{'name': name, 'value': value}])
+    definition = schema_text(EVENT).encode()
+    row = ('/parameter_events', EVENT, 'cdr', 'ros2msg', definition, change)
+    (comparison,) = replayed(with_topics(DATA / 'block', tmp_path / 'bag', row))
+    assert len(comparison.ticks) > 100
     assert not comparison.different()
 
 
