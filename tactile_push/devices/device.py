@@ -5,11 +5,14 @@
 import contextlib
 import io
 import math
+import os
 import select
 import time
 from urllib.parse import urlsplit
 
 import serial
+
+FD_SETSIZE = 1024  # descriptors from here on are beyond select(), with which pyserial reads
 
 
 class Device:
@@ -43,6 +46,9 @@ class Device:
         except (AttributeError, io.UnsupportedOperation):
             self._file = None
             self._port.timeout = self.LONGEST_WAIT
+        else:
+            self._arrival = select.poll()
+            self._arrival.register(self._file, select.POLLIN)
         # Steady times [s]: what is read next came after the first, what was read last after the
         # second. Never yet, for what a line held before it was opened may still come.
         self._empty_at = -math.inf
@@ -62,7 +68,7 @@ class Device:
                 data = self._port.read(max(1, self._port.in_waiting))
             elif self._bytes_are_there(self.LONGEST_WAIT):
                 began = time.monotonic()
-                data = self._port.read(self.LONGEST_READ)
+                data = self._read_file(self._file)
             else:
                 return b''
             if len(data) < self.LONGEST_READ:
@@ -91,7 +97,15 @@ class Device:
     def _bytes_are_there(self, patience: float) -> bool:
         if self._file is None:
             return bool(self._port.in_waiting)
-        return bool(select.select([self._file], [], [], patience)[0])
+        return bool(self._arrival.poll(1000.0 * patience))
+
+    def _read_file(self, file: int) -> bytes:
+        if file < FD_SETSIZE:
+            return self._port.read(self.LONGEST_READ)
+        data = os.read(file, self.LONGEST_READ)
+        if not data:
+            raise OSError('the device is gone')
+        return data
 
     def _note_empty(self, moment: float) -> None:
         if moment - self._empty_at > self.LONGEST_AGE:
@@ -101,6 +115,8 @@ class Device:
 
 def _gone(error: Exception) -> OSError:
     """Make an OSError of what pyserial throws: termios.error, TypeError, ValueError, and more."""
+    if 'out of range in select' in str(error):
+        return OSError(f'pyserial opens it only with fewer than {FD_SETSIZE} files open')
     return OSError(getattr(error, 'strerror', None) or str(error) or type(error).__name__)
 
 

@@ -103,7 +103,7 @@ def make_sensing(p: ActiveSensingParameters) -> 'ActiveSensing':
     Raises
     ------
     ValueError
-        If the outline is none, has no such edge, or if a range is empty.
+        If the outline is none or far too large, has no such edge, or if a range is empty.
     """
     from tactile_push.estimation import (  # which loads the compiler
         ActiveSensing,
@@ -112,6 +112,8 @@ def make_sensing(p: ActiveSensingParameters) -> 'ActiveSensing':
         ObjectEstimator,
         edges_of,
     )
+    from tactile_push.mechanics import Outline
+    from tactile_push.mechanics.size import check_metres
 
     for name in ('c', 'mu_c'):
         low, high = getattr(p, f'{name}_min'), getattr(p, f'{name}_max')
@@ -127,6 +129,7 @@ def make_sensing(p: ActiveSensingParameters) -> 'ActiveSensing':
                 f'vertices: expected x and y of three corners or more, got {numbers} numbers'
             )
         edges = edges_of(p.corners)
+        check_metres('vertices', Outline.polygon(p.corners))
         if p.edge >= len(edges):
             raise ValueError(f'edge: expected -1 to {len(edges) - 1}, got {p.edge}')
         if p.edge >= 0:

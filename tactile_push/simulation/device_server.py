@@ -56,13 +56,14 @@ class TcpServer:
 
     def __init__(self, host: str, port: int) -> None:
         try:
-            self._listener = socket.create_server((host, port))
+            self._listener = socket.create_server((host, port), family=_family(host, port))
         except OSError as error:
             # Name resolution has numbers of its own, below 0, and Python adds to its words.
             named = (error.errno or 0) < 0
             words = str(error.strerror).partition(' (')[0]
             reason = words if named else os.strerror(error.errno or 0)
-            raise OSError(error.errno, f'{host}:{port}: {reason}') from None
+            place = f'[{host}]' if ':' in host else host
+            raise OSError(error.errno, f'{place}:{port}: {reason}') from None
         self._listener.setblocking(False)
         self._clients: list[socket.socket] = []
 
@@ -86,11 +87,18 @@ class TcpServer:
     def _accept(self) -> None:
         try:
             client, _ = self._listener.accept()
-        except BlockingIOError:
+        except OSError:  # nobody is there, has gone again, or no file can be opened at present
             return
         client.setblocking(False)
         client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self._clients.append(client)
+
+
+def _family(host: str, port: int) -> socket.AddressFamily:
+    """Return IPv6 for a host that has no address of IPv4; OSError if it has none at all."""
+    found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
+    families = {family for family, *_ in found}
+    return socket.AF_INET if socket.AF_INET in families else socket.AF_INET6
 
 
 class PseudoTerminal:

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from tactile_push.mechanics import Outline, Support
+from tactile_push.mechanics.size import check_metres
 
 Form = tuple[Callable[[Any], bool], str]
 
@@ -40,7 +41,7 @@ def read_object(file: Path) -> tuple[Outline, tuple[float, float] | None]:
     OSError
         If the file cannot be read.
     ValueError
-        If the file has another form or the outline is not convex.
+        If the file has another form, or the outline is not convex or far too large.
     """
     content = _read(file)
     outline = content.get('outline')
@@ -55,6 +56,7 @@ def read_object(file: Path) -> tuple[Outline, tuple[float, float] | None]:
         if key not in outline:
             raise ValueError(f'outline: expected {key} of a {kind}, got none')
         made = make(_checked(key, outline[key], form))
+        check_metres(key, made)
         if centre is not None:
             x, y = _checked('centre_of_mass', centre, PAIR)
             centre = float(x), float(y)

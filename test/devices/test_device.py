@@ -17,7 +17,8 @@ import pytest
 import serial
 from serial.rfc2217 import PortManager
 
-from tactile_push.devices.device import Device, check_url, socket_address
+from support.many_files import no_more_files, open_files
+from tactile_push.devices.device import FD_SETSIZE, Device, check_url, socket_address
 
 BAUD_RATE = 115200
 PATIENCE = 20.0  # [s]
@@ -409,6 +410,29 @@ def test_device_that_does_not_even_close_is_given_up_in_silence(monkeypatch):
     device = Device('odd://', BAUD_RATE)
     assert device.read() == b'x'
     device.close()
+
+
+def test_line_is_read_beyond_what_select_can_wait_for(line, devices):
+    near, path = line
+    with open_files(FD_SETSIZE):
+        device = devices(path)
+        os.write(near, b'beyond')
+        assert receive(device, 6) == b'beyond'
+        assert device.read() == b''
+        os.close(near)
+        with pytest.raises(OSError):
+            read_until_gone(device)
+
+
+def test_handler_that_needs_select_says_in_words_that_too_many_files_are_open(listener):
+    with open_files(FD_SETSIZE), pytest.raises(OSError, match='only with fewer than 1024 files'):
+        Device(listener[1], BAUD_RATE)
+
+
+def test_device_that_cannot_be_opened_for_want_of_a_file_is_an_oserror_with_words(line):
+    with no_more_files(), pytest.raises(OSError, match='Too many open files'):
+        Device(line[1], BAUD_RATE)
+    Device(line[1], BAUD_RATE).close()
 
 
 @pytest.mark.parametrize('url', ['', 'hwgrep://[', 'alt:///dev/ttyS0?class=Nothing'])

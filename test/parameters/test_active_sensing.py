@@ -77,6 +77,10 @@ def test_after_the_timeout_the_estimate_starts_over():
         ({'vertices': TRIANGLE[:5]}, 'vertices: expected x and y of three corners or more, got 5'),
         ({'vertices': TRIANGLE[:4]}, 'vertices: expected x and y of three corners or more, got 4'),
         ({'vertices': [0.0] * 6}, 'vertices'),
+        (
+            {'vertices': [1e3 * x for x in TRIANGLE]},
+            r'^vertices: expected metres, .* millimetres\?$',
+        ),
         ({'edge': 4}, 'edge: expected -1 to 3, got 4'),
         ({'c_min': 0.02, 'c_max': 0.02}, r'c_max: expected more than c_min = 0\.02, got 0\.02'),
         ({'mu_c_min': 0.5, 'mu_c_max': 0.4}, r'mu_c_max: expected more than mu_c_min = 0\.5'),

@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The simulated sensor's end of the wire, with the sensor driver's device at the other end."""
 
+import errno
 import os
 import random
+import re
 import time
 
 import pytest
 
+from support.many_files import no_more_files
 from tactile_push.devices.device import Device
 from tactile_push.simulation import serve
 
@@ -266,6 +269,45 @@ def test_port_that_no_driver_would_find_is_refused():
 
 
 def test_host_that_cannot_be_served_is_named_in_words():
-    with pytest.raises(OSError, match=r'^(?!.*Unknown error).*\[?::1.*54321') as refusal:
-        serve('socket://[::1]:54321')
-    assert 'family' in str(refusal.value) or 'host' in str(refusal.value)
+    with pytest.raises(OSError, match=r'^(?!.*Unknown error).*192\.0\.2\.1:54321: .') as refusal:
+        serve('socket://192.0.2.1:54321')  # an address of nobody
+    assert 'address' in str(refusal.value)
+    with pytest.raises(OSError, match=r'^(?!.*Unknown error).*\[2001:db8::1\]:54321: .'):
+        serve('socket://[2001:db8::1]:54321')
+
+
+@pytest.mark.parametrize('host', ['::1', '::'])
+def test_sensor_is_served_on_ipv6(host):
+    url = f'socket://[{host}]:{random.randint(10000, 30000)}'
+    try:
+        server = serve(url)
+    except OSError as error:
+        if error.errno in (errno.EAFNOSUPPORT, errno.EADDRNOTAVAIL):
+            pytest.skip(f'no IPv6 here: {error}')
+        raise
+    device = Device(url, BAUD_RATE)
+    assert LINE.startswith(exchange(server, device)[: len(LINE)])
+    with pytest.raises(OSError, match=re.escape(url.removeprefix('socket://'))):
+        serve(url)
+    device.close()
+    server.close()
+
+
+def test_name_of_this_machine_is_served_where_a_driver_finds_it():
+    url = f'socket://localhost:{random.randint(10000, 30000)}'
+    server = serve(url)
+    device = Device(url, BAUD_RATE)
+    exchange(server, device)
+    device.close()
+    server.close()
+
+
+def test_client_waits_while_the_server_can_open_no_file(address):
+    server = serve(address)
+    device = Device(address, BAUD_RATE)
+    with no_more_files():
+        server.send(LINE)
+        assert server._clients == []
+    exchange(server, device)
+    device.close()
+    server.close()

@@ -171,6 +171,22 @@ NO_POINTS = {
 }
 
 
+@pytest.mark.parametrize(
+    ('kind', 'key', 'lengths'),
+    [
+        ('polygon', 'vertices', [[0, 0], [50, 0], [50, 47.5], [0, 47.5]]),
+        ('circle', 'radius', 30),
+        ('ellipse', 'semi_axes', [20, 30]),
+        ('smooth', 'points', [[20, 0], [0, 30], [-20, 0], [0, -30]]),
+    ],
+)
+def test_lengths_in_millimetres_are_doubted(write, kind, key, lengths):
+    with pytest.raises(ValueError, match=rf'thing.json: {key}: expected metres, .* millimetres\?$'):
+        read_object(write({'outline': {'kind': kind, key: lengths}}))
+    metres = (1e-3 * np.array(lengths)).tolist()
+    read_object(write({'outline': {'kind': kind, key: metres}}))
+
+
 @pytest.mark.parametrize('points', NO_POINTS.values(), ids=NO_POINTS)
 @pytest.mark.parametrize(('kind', 'key'), [('polygon', 'vertices'), ('smooth', 'points')])
 def test_what_is_no_list_of_points_is_refused_with_its_key(write, kind, key, points):
