@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from tactile_push.interface import PARAMETERS_NOTE
+from tactile_push.interface import PARAMETERS_NOTE, PLANTS
 from tactile_push.parameters import PARAMETERS
 
 MOST_WORDS = 200  # of a line about a value that may be of any length [characters]
@@ -18,7 +18,8 @@ def recorded_parameters(
     """Return the parameters in the notes of a bag, and a line for each thing that is left out.
 
     The parameters are values by node, its full name without the leading slash; None if there are
-    none. Values that the package's nodes refuse are left out.
+    none. Values that the package's nodes refuse are left out. If a plant refuses one, all of its
+    values are left out: with a default among them they would tell of another object.
     """
     text = notes.get(PARAMETERS_NOTE)
     if text is None:
@@ -37,13 +38,16 @@ def recorded_parameters(
             left_out.append(_short(f'expected values by name, got {values!r}', node))
             continue
         found[node] = dict(values)
-        kind = PARAMETERS.get(node.rpartition('/')[2])
+        own = node.rpartition('/')[2]
+        kind = PARAMETERS.get(own)
         for known in kind.declared() if kind else ():
             try:
                 known.check(values.get(known.name, known.default))
             except ValueError as error:
-                del found[node][known.name]
                 left_out.append(_short(str(error), node))
+                del found[node][known.name]
+        if own in PLANTS and len(found[node]) < len(values):
+            del found[node]
     return found, left_out
 
 

@@ -37,6 +37,14 @@ def test_what_has_another_shape_is_left_out_and_told(text, words):
     assert not any('kp' in values or 'vertices' in values for values in (found or {}).values())
 
 
+@pytest.mark.parametrize('node', ['sim_plant', 'left/mujoco_plant'])
+def test_of_a_plant_that_refuses_a_value_nothing_stays(node):
+    text = json.dumps({node: {'object': 7, 'mu_c': 0.3}})
+    found, (line,) = recorded_parameters({NOTE: text})
+    assert found == {}
+    assert f'/{node}: left out: parameter object: expected' in line
+
+
 def test_the_rest_stays():
     text = '{"push_controller": {"kp": "fast", "kd": 3.0}, "sim_plant": 3, "other": {"a": 1}}'
     found, lines = recorded_parameters({NOTE: text})
