@@ -51,6 +51,17 @@ def fields_of(type_name: str, definition: str) -> dict[str, str]:
     return dict(_flat(parts, parts[type_name], '', ()))
 
 
+def same_fields(type_name: str, one: str, other: str) -> bool:
+    """Return whether two definitions have the same fields; of invalid ones the texts count."""
+    if one == other:
+        return True
+    try:
+        fields, others = (list(fields_of(type_name, text).items()) for text in (one, other))
+    except ValueError:
+        return False
+    return fields == others
+
+
 def trouble_with(fields: Mapping[str, str], expected: Mapping[str, str]) -> str:
     """Say what is wrong with the fields of a definition where others are expected, '' if nothing.
 

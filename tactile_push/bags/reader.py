@@ -21,10 +21,12 @@ from tactile_push.bags.bag_files import (
     read_metadata,
 )
 from tactile_push.bags.definitions import full_type_name
+from tactile_push.bags.fields import same_fields
 from tactile_push.bags.mcap_contents import Piece
 from tactile_push.bags.mcap_file import McapFile, Message
 from tactile_push.bags.mcap_records import DamageError
 from tactile_push.bags.merge import Batch, in_order
+from tactile_push.bags.qos import read_profiles
 from tactile_push.bags.sources import BagError
 from tactile_push.bags.topic import Topic
 
@@ -217,15 +219,17 @@ class BagReader:
                     name,
                     type_name,
                     text,
-                    self._qos(channel),
+                    read_profiles(
+                        channel.metadata.get('offered_qos_profiles', ''),
+                        partial(self._warn_of_quality, name),
+                    ),
                     channel.metadata.get('topic_type_hash', ''),
                     encodings,
                 )
-            elif (topic.type_name, topic.encodings) != (type_name, encodings):
+            elif other := _another_kind(topic, type_name, text, encodings):
                 self.warn(
                     f'{file.path}: {contents.counts[number]} messages of {name} are left out: '
-                    f'expected type {topic.type_name} in {"/".join(topic.encodings)}, '
-                    f'got {type_name} in {"/".join(encodings)}'
+                    f'{other}'
                 )
                 continue
             names[number] = name
@@ -233,15 +237,8 @@ class BagReader:
             self.counts[name] += contents.counts[number]
         return names
 
-    def _qos(self, channel: Channel) -> tuple[dict, ...]:
-        try:
-            profiles = load_yaml(channel.metadata.get('offered_qos_profiles', '')) or []
-            if not isinstance(profiles, list) or not all(isinstance(qos, dict) for qos in profiles):
-                raise ValueError('expected a list of mappings')
-        except ValueError as error:
-            self.warn(f'{self.path}: quality of service of {channel.topic} not used: {error}')
-            profiles = []
-        return tuple(profiles)
+    def _warn_of_quality(self, topic: str, line: str) -> None:
+        self.warn(f'{self.path}: quality of service of {topic}: {line}')
 
     def _take_notes(self, file: McapFile, metadata: BagMetadata) -> bool:
         """Add the notes in a file; return whether its messages are compressed one by one."""
@@ -309,6 +306,16 @@ class BagReader:
         assert decoder is not None  # as it has a definition in ROS's words
         self._decoders[topic] = decoder
         return decoder
+
+
+def _another_kind(topic: Topic, type_name: str, text: str, encodings: tuple[str, str]) -> str:
+    """Return why messages of one topic cannot be taken for messages of another, '' if they can."""
+    expected, got = (topic.type_name, *topic.encodings), (type_name, *encodings)
+    if expected != got:
+        return f'expected {" in ".join(expected)}, got {" in ".join(got)}'
+    if topic.decodes and not same_fields(type_name, topic.definition, text):
+        return f'{type_name} is defined otherwise'
+    return ''
 
 
 def _one_line(error: Exception) -> str:

@@ -29,7 +29,7 @@ from rclpy.serialization import deserialize_message
 from rosgraph_msgs.msg import Clock as ClockMessage
 
 from tactile_push.bags import BagError, Message, Topic, schema_text
-from tactile_push.bags.fields import fields_of
+from tactile_push.bags.fields import fields_of, same_fields
 from tactile_push.interface import CLOCK
 from tactile_push.playing.offers import Offer, combined_offer
 from tactile_push.playing.playback import Playback
@@ -284,10 +284,10 @@ def _is_another_version(topic: Topic) -> bool:
     """Return whether the bag defines other fields than the installed type has."""
     try:
         recorded = fields_of(topic.type_name, topic.definition)
-        installed = fields_of(topic.type_name, schema_text(topic.type_name))
+        installed = schema_text(topic.type_name)
     except (ValueError, LookupError):  # nobody knows
         return False
-    return bool(recorded) and list(recorded.items()) != list(installed.items())
+    return bool(recorded) and not same_fields(topic.type_name, topic.definition, installed)
 
 
 def _is_best_effort(publisher: Publisher) -> bool:

@@ -239,6 +239,23 @@ def test_topic_has_a_leading_slash_whether_the_bag_writes_it_or_not(tmp_path, na
     assert len(warnings) == (not finish)
 
 
+@pytest.mark.parametrize('second', ['int32 data', '', 'builtin_interfaces/Time[] clock', 'int32['])
+def test_messages_that_the_bag_defines_otherwise_than_the_first_are_left_out(tmp_path, second):
+    with open(tmp_path / 'file.mcap', 'wb') as stream:
+        writer = Writer(stream)
+        writer.start('ros2')
+        for number, text in enumerate((CLOCK_DEFINITION, second, f'# new\n{CLOCK_DEFINITION}')):
+            schema = writer.register_schema(CLOCK, 'ros2msg', text.encode())
+            channel = writer.register_channel('/clock', 'cdr', schema, {'number': str(number)})
+            writer.add_message(channel, number, clock_message(number), number)
+        writer.finish()
+    warnings = []
+    with BagReader(tmp_path / 'file.mcap', warnings.append) as reader:
+        assert [reader.decode(each).clock.nanosec for each in reader.messages()] == [0, 2]
+    (line,) = warnings
+    assert line.endswith(f'1 messages of /clock are left out: {CLOCK} is defined otherwise')
+
+
 ENCODINGS = [('json', 'jsonschema'), ('cdr', 'ros2idl'), ('cdr', 'omgidl'), ('protobuf', 'ros2msg')]
 
 

@@ -302,6 +302,30 @@ def test_topic_without_a_leading_slash_is_played_as_with_one(graph, tmp_path, na
     assert graph.numbers() == due(0, 1)
 
 
+OFFERS = [
+    {'deadline': 5, 'lifespan': 'infinite'},
+    {'deadline': {'sec': 'one'}, 'liveliness_lease_duration': [1]},
+    {'depth': 'ten', 'reliability': ['reliable']},
+    {'depth': -1, 'avoid_ros_namespace_conventions': 'no'},
+]
+
+
+@pytest.mark.parametrize('offer', OFFERS, ids=str)
+def test_quality_of_service_written_by_hand_is_warned_of_and_the_default_played(
+    graph, tmp_path, offer
+):
+    graph.listen(Int64, '/number')
+    write(tmp_path / 'bag', [0], qos=[offer])
+    warnings = []
+    bag = BagReader(tmp_path / 'bag', warnings.append)
+    graph.play(part_of(bag))
+    graph.spin_to_the_end()
+    assert graph.numbers() == due(0)
+    assert len(warnings) == len(offer)
+    for key, line in zip(offer, warnings, strict=True):
+        assert f'bag: quality of service of /number: {key}: expected ' in line
+
+
 def test_topic_gets_a_new_name(graph, tmp_path):
     graph.listen(Int64, '/left/number')
     bag = write(tmp_path / 'bag', [0])
