@@ -18,6 +18,8 @@ _LOADER = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)
 # Longer than that of a bag with a thousand files and topics [characters].
 _LARGEST = 1 << 24
 
+METADATA = 'metadata.yaml'
+_MCAP, _SQLITE = 'mcap', '.db3'  # rosbag2's word for what is read, the files of what is not
 _SHOWN = 60  # characters of what is not understood
 
 # Name, number and suffix that rosbag2 gives a file.
@@ -33,6 +35,7 @@ class BagMetadata:
     end: int = 0  # last log time [ns]
     message_compression: str = ''  # with which each message is compressed
     custom_data: dict[str, str] = field(default_factory=dict)  # notes on the bag
+    storage: str = _MCAP  # format of the files; '' if the metadata do not say it
 
 
 def load_yaml(text: str) -> Any:
@@ -64,6 +67,7 @@ def parse_metadata(information: Any, warn: Callable[[str], None]) -> BagMetadata
             + int(information['duration']['nanoseconds']),
             str(information.get('compression_format')) if is_compressed else '',
             {str(key): str(value) for key, value in notes.items()},
+            str(information.get('storage_identifier') or '').strip().lower(),
         )
     except (AttributeError, KeyError, TypeError, ValueError, OverflowError) as error:
         raise ValueError(f'bad rosbag2_bagfile_information: {error!r}') from None
@@ -72,10 +76,9 @@ def parse_metadata(information: Any, warn: Callable[[str], None]) -> BagMetadata
 def read_metadata(folder: Path, warn: Callable[[str], None]) -> BagMetadata:
     """Read the ``metadata.yaml`` in the folder of a bag; notes of another shape are warned of.
 
-    Raises FileNotFoundError if there is none, OSError or ValueError if it cannot be read, and
-    BagError if the bag is not stored as MCAP.
+    Raises FileNotFoundError if there is none, OSError or ValueError if it cannot be read.
     """
-    with open(folder / 'metadata.yaml', encoding='utf-8') as stream:
+    with open(folder / METADATA, encoding='utf-8') as stream:
         text = stream.read(_LARGEST + 1)
     if len(text) > _LARGEST:
         raise ValueError(f'expected at most {_LARGEST} characters, got more')
@@ -83,20 +86,20 @@ def read_metadata(folder: Path, warn: Callable[[str], None]) -> BagMetadata:
     if not isinstance(content, dict) or 'rosbag2_bagfile_information' not in content:
         raise ValueError('expected rosbag2_bagfile_information, got something else')
     information = content['rosbag2_bagfile_information']
-    metadata = parse_metadata(information, lambda line: warn(f'{folder / "metadata.yaml"}: {line}'))
-    storage = information.get('storage_identifier')
-    if storage != 'mcap':
-        raise BagError(_foreign(folder, storage))
-    return metadata
+    return parse_metadata(information, lambda line: warn(f'{folder / METADATA}: {line}'))
 
 
 def find_files(path: Path, metadata: BagMetadata, warn: Callable[[str], None]) -> list[Path]:
     """Return the files of a bag in their order; BagError if there is none."""
     if not path.is_dir():
-        if path.suffix == '.db3':
+        if path.suffix == _SQLITE:
             raise BagError(_foreign(path, 'sqlite3'))
         return [path]
     named = [path / name for name in metadata.files]
+    if metadata.storage != _MCAP:  # then the files tell
+        others = [file for file in named if not _FILE_NAME.fullmatch(file.name)]
+        if others or (metadata.storage and not named):
+            raise BagError(_foreign(path, metadata.storage or _storage_of(others[0])))
     files = [file for file in named if file.is_file()]
     missing = [file for file in named if file not in files]
     if not files:
@@ -105,7 +108,7 @@ def find_files(path: Path, metadata: BagMetadata, warn: Callable[[str], None]) -
         # While rosbag2 compresses a file, both are there.
         files = [f for f in files if f.suffix == '.mcap' or f.with_suffix('') not in files]
     if not files:
-        if any(file.suffix == '.db3' for file in path.iterdir()):
+        if any(file.suffix == _SQLITE for file in path.iterdir()):
             raise BagError(_foreign(path, 'sqlite3'))
         raise BagError(f'{path}: expected a bag with at least one .mcap file, got none')
     for file in missing:
@@ -118,6 +121,10 @@ def _by_number(file: Path) -> tuple[str, int, str]:
     match = _FILE_NAME.fullmatch(file.name)
     assert match is not None
     return match[1], int(match[2] or -1), file.name
+
+
+def _storage_of(file: Path) -> str:
+    return 'sqlite3' if file.suffix == _SQLITE else f'files such as {file.name}'
 
 
 def _foreign(path: Path, storage: object) -> str:

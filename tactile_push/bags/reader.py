@@ -14,6 +14,7 @@ from mcap.records import Channel, Schema
 from mcap_ros2.decoder import DecoderFactory
 
 from tactile_push.bags.bag_files import (
+    METADATA,
     BagMetadata,
     find_files,
     load_yaml,
@@ -60,7 +61,7 @@ class BagReader:
     def __init__(
         self, path: str | os.PathLike[str], warn: Callable[[str], None] = _LOGGER.warning
     ) -> None:
-        self.path = Path(path)  #: where the bag is
+        self.path = Path(path)  #: where the bag is; its folder if its metadata.yaml is given
         self.topics: dict[str, Topic] = {}  #: by name
         #: messages by topic, with those of damaged chunks that nobody has read yet
         self.counts: dict[str, int] = {}
@@ -70,6 +71,8 @@ class BagReader:
         self._sources: dict[str, tuple[Channel, Schema | None]] = {}
         self._decoders: dict[str, Callable[[bytes], Any]] = {}
         try:
+            if self.path.name == METADATA and self.path.is_file():
+                self.path = self.path.parent
             metadata = self._metadata()
             files = find_files(self.path, metadata, warn)
         except OSError as error:
@@ -183,7 +186,7 @@ class BagReader:
         except FileNotFoundError:
             return BagMetadata()
         except (OSError, ValueError) as error:
-            self.warn(f'{self.path / "metadata.yaml"}: not used: {_one_line(error)}')
+            self.warn(f'{self.path / METADATA}: not used: {_one_line(error)}')
             return BagMetadata()
 
     def _open_files(self, paths: list[Path]) -> list[McapFile]:

@@ -4,7 +4,9 @@
 
 import argparse
 import math
-from collections.abc import Callable
+import os
+import sys
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, TypeAlias
 
@@ -33,12 +35,86 @@ class Refused(Exception):  # noqa: N818, it is no fault of the program
         self.status = status
 
 
+_MISSING = 'the following arguments are required: '  # argparse's words
+
+
 class Parser(argparse.ArgumentParser):
-    """A parser that says in one line what is wrong."""
+    """A parser that says in one line what is wrong, and lets files stand behind a list of words.
+
+    argparse gives all words behind an option such as ``--topics`` to it. If files are missing then,
+    the last of these words are taken for them, provided that they are there.
+    """
+
+    _lists: Sequence[str] = ()  # options in the last words that take all words behind them
+
+    def parse_known_args(  # type: ignore[override]
+        self, args: Sequence[str] | None = None, namespace: Any = None
+    ) -> tuple[argparse.Namespace, list[str]]:
+        """Parse words as argparse does, with files behind lists of words."""
+        words = [*(sys.argv[1:] if args is None else args)]
+        self._lists = [word for word in words if self._nargs(word) == '+']
+        return super().parse_known_args(self._files_last(words), namespace)
 
     def error(self, message: str) -> NoReturn:
         """End with exit status 2."""
+        if message.startswith(_MISSING) and self._lists:
+            message += f', before {self._lists[0]}'
         self.exit(2, f'{self.prog}: error: {message}; see {self.prog} --help\n')
+
+    def _nargs(self, word: str) -> int | str | None:
+        action = self._option_string_actions.get(word)
+        return None if action is None else action.nargs
+
+    def _files_last(self, words: list[str]) -> list[str]:
+        """Move missing files from behind options, which would swallow them, to the end."""
+        required = [action for action in self._actions if _is_file(action)]
+        missing = len(required)
+        swallowed: list[int] = []
+        place = 0
+        while place < len(words) and missing > 0:
+            action = self._option_string_actions.get(words[place])
+            run = 0 if action is None else self._run(words, place + 1)
+            if words[place] == '--':
+                return words
+            if action is None:
+                # An option with its value, or a shortened one, is left to argparse.
+                missing -= not words[place].startswith('-')
+            elif action.nargs is None:
+                run = min(run, 1)
+            elif action.nargs == '+':
+                swallowed += range(place + 2, place + 1 + run)
+            elif action.nargs == '?' and run:
+                run = 1
+                if _refuses(action, words[place + 1]):
+                    swallowed.append(place + 1)
+            else:
+                run = 0
+            place += 1 + run
+        there = [place for place in swallowed if os.path.exists(words[place])]
+        if not 0 < missing <= len(there):
+            return words
+        taken = there[-missing:]
+        given = [words[place] for place in taken]
+        return [word for place, word in enumerate(words) if place not in taken] + ['--', *given]
+
+    @staticmethod
+    def _run(words: list[str], first: int) -> int:
+        """Return how many words follow before the next option."""
+        options = (k for k in range(first, len(words)) if words[k].startswith('-'))
+        return next(options, len(words)) - first
+
+
+def _is_file(action: argparse.Action) -> bool:
+    return not action.option_strings and action.nargs is None
+
+
+def _refuses(action: argparse.Action, word: str) -> bool:
+    assert callable(action.type)
+    try:
+        action.type(word)
+    except argparse.ArgumentTypeError:
+        return True
+    return False
 
 
 Commands: TypeAlias = 'argparse._SubParsersAction[Parser]'

@@ -10,7 +10,7 @@ from datetime import datetime, timezone
 from typing import TYPE_CHECKING
 
 from tactile_push.cli.arguments import BAG, Commands, number
-from tactile_push.interface import PUSH_CONTROLLER
+from tactile_push.interface import CLOCK, PUSH_CONTROLLER
 from tactile_push.paper import TOLERANCE
 
 if TYPE_CHECKING:
@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     from tactile_push.report.info import BagInfo
     from tactile_push.report.merit import PushFigures
 
-# A clock that counts from the epoch is later than this [ns]: 2001. Simulated time is earlier.
+# A clock that was set is later than this [ns]: 2001. Simulated time is earlier, and so is a clock
+# that nobody has set since the machine began, as of a robot without a battery for its clock.
 _EPOCH_CLOCK = 10**18
 
 
@@ -73,7 +74,7 @@ def _print(info: 'BagInfo') -> None:
     for file in info.files:
         compression = f', compression: {file.compression}' if file.compression else ''
         head.add_row('file', escape(f'{file.path.name}, {decimal(file.size)}{compression}'))
-    head.add_row('start', _start(info.start_time))
+    head.add_row('start', _start(info))
     head.add_row('duration', f'{info.duration:.3f} s')
     head.add_row('messages', str(info.messages))
     head.add_row('tactile_push', escape(info.version or 'version not recorded'))
@@ -135,9 +136,12 @@ def _print_parameters(console: 'Console', info: 'BagInfo') -> None:
         console.print(table, highlight=False)
 
 
-def _start(time: int) -> str:
+def _start(info: 'BagInfo') -> str:
     from tactile_push.comparing.fields import seconds
 
+    time = info.start_time
     if time < _EPOCH_CLOCK:
-        return f'{seconds(time)} s (simulated time)'
+        simulated = any(topic.name == CLOCK and topic.messages for topic in info.topics)
+        why = 'simulated time' if simulated else 'simulated time, or a clock that was not set'
+        return f'{seconds(time)} s ({why})'
     return datetime.fromtimestamp(time / 1e9, tz=timezone.utc).isoformat(' ', 'milliseconds')

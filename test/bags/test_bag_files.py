@@ -84,6 +84,51 @@ def test_sqlite_bag_is_refused_with_what_to_do(tmp_path, has_metadata):
             BagReader(path, refuse)
 
 
+def test_metadata_file_stands_for_its_folder(tmp_path, monkeypatch):
+    written = write_by_rosbags(tmp_path / 'bag', CompressionMode.NONE)
+    monkeypatch.chdir(tmp_path / 'bag')
+    for path in (tmp_path / 'bag' / 'metadata.yaml', 'metadata.yaml', './metadata.yaml'):
+        with BagReader(path, refuse) as reader:
+            assert reader.path.resolve() == tmp_path / 'bag'
+            assert [(m.topic, m.log_time, m.data) for m in reader.messages()] == written
+            assert reader.notes == {'object': 'block'}
+
+
+STORAGES = [None, '', 'MCAP', 'my_mcap', 'sqlite3', 3, []]
+
+
+@pytest.mark.parametrize('storage', STORAGES, ids=str)
+def test_files_tell_the_storage_if_the_metadata_do_not(tmp_path, storage):
+    written = some_messages(20)
+    (tmp_path / 'bag_0.mcap').write_bytes(mcap_bytes(written))
+    (tmp_path / 'metadata.yaml').write_text(metadata_of('bag_0.mcap', storage_identifier=storage))
+    with BagReader(tmp_path, refuse) as reader:
+        assert as_tuples(reader.messages()) == written
+    (tmp_path / 'metadata.yaml').write_text(
+        metadata_of('bag_0.mcap').replace('  storage_identifier: mcap\n', '')
+    )
+    with BagReader(tmp_path, refuse) as reader:
+        assert as_tuples(reader.messages()) == written
+
+
+@pytest.mark.parametrize(
+    ('storage', 'file', 'words'),
+    [
+        ('', 'bag_0.db3', 'got sqlite3: `ros2 bag convert`'),
+        (None, 'bag_0.db3', 'got sqlite3: `ros2 bag convert`'),
+        ('sqlite3', 'bag_0.db3', 'got sqlite3: `ros2 bag convert`'),
+        ('rosbag_v2', 'old.bag', 'got rosbag_v2: `ros2 bag convert`'),
+        ('', 'old.bag', 'got files such as old.bag: `ros2 bag convert`'),
+    ],
+)
+def test_bag_in_another_storage_is_refused_with_what_it_is(tmp_path, storage, file, words):
+    (tmp_path / file).write_bytes(bytes(100))
+    (tmp_path / 'metadata.yaml').write_text(metadata_of(file, storage_identifier=storage))
+    for path in (tmp_path, tmp_path / 'metadata.yaml'):
+        with pytest.raises(BagError, match=f'{tmp_path}: expected a bag stored as mcap, {words}'):
+            BagReader(path, refuse)
+
+
 BAD_METADATA = {
     'no YAML': b'rosbag2_bagfile_information: [',
     'no text': bytes(range(256)),

@@ -113,6 +113,25 @@ def test_command_refuses_other_tolerances(bags, diff, text):
     assert 'expected a number of 0 or more, or TOPIC:FIELD=NUMBER' in err
 
 
+def test_bags_may_stand_behind_lists(bags, diff):
+    a, b = bags
+    orders = [
+        ['--topics', STATE, a, b],
+        [a, '--topics', STATE, b],
+        ['--ignore', '/clock', a, b],
+        ['--topics', STATE, a, '--ignore', '/clock', b],
+        ['--topics', STATE, '--times', '--ignore', '/clock', a, b, '--json'],
+    ]
+    for words in orders:
+        status, out, err = diff(*words)
+        assert (status, err) == (1, '')
+        assert str(a) in out and out.index(str(a)) < out.index(str(b))
+        assert '/clock' not in out.replace(str(a), '').replace(str(b), '')
+    status, out, err = diff('--topics', '/clock', a)
+    assert (status, out) == (2, '')
+    assert 'required: BAG_A, BAG_B, before --topics' in err
+
+
 def test_command_refuses_bad_bags_in_one_line(bags, diff, tmp_path):
     (tmp_path / 'text.mcap').write_text('no bag')
     for wrong in ('nowhere', 'text.mcap'):

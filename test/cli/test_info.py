@@ -9,7 +9,7 @@ from functools import partial
 
 import pytest
 
-from support.bag_making import write_bag, write_file
+from support.bag_making import joint_state, write_bag, write_file
 from support.bags_to_know import BAND, CLOCK, JOINT_STATE, NOTES, STATE, clocks, pushes
 
 
@@ -57,6 +57,18 @@ def test_command_says_what_is_in_a_bag(tmp_path, info_of):
 def test_command_counts_real_time_from_the_epoch(tmp_path, info_of):
     path = write_bag(tmp_path / 'bag', {'/clock': clocks(1_732_540_000_123_000_000)})
     assert ['start', '2024-11-25 13:06:40.123+00:00'] in rows_of(info_of(path)[1])
+
+
+@pytest.mark.parametrize('clock', [[], [10**9]])
+def test_command_does_not_know_a_clock_that_was_not_set_from_simulated_time(
+    tmp_path, info_of, clock
+):
+    joints = [(10**9 + k, joint_state(10**9 + k)) for k in range(3)]
+    topics = {'/clock': clocks(*clock), '/joint_states': (JOINT_STATE, joints)}
+    _, out, _ = info_of(write_file(tmp_path / 'x.mcap', topics))
+    (row,) = [line for line in out.splitlines() if line.startswith('start ')]
+    why = 'simulated time' if clock else 'simulated time, or a clock that was not set'
+    assert row.split(maxsplit=1)[1].strip() == f'1.000000000 s ({why})'
 
 
 def test_command_takes_the_band(tmp_path, info_of):

@@ -31,6 +31,39 @@ def test_every_word_becomes_a_parameter(become):
     assert isinstance(parameters['rate'], float)  # as the node insists
 
 
+@pytest.mark.parametrize(
+    'words',
+    [
+        ['--topics', 'a', 'b', 'BAG'],
+        ['--topics', 'a', 'b', 'BAG', '--loop'],
+        ['--loop', '--rate', '2', '--topics', 'a', 'b', 'BAG', '--start', '0'],
+        ['--topics', 'a', 'b', '--remap', 'a:=c', 'BAG'],
+        ['--topics', 'a', 'b', '--clock', 'BAG'],
+        ['--clock', 'BAG', '--topics', 'a', 'b'],
+        ['--topics', 'a', 'b', '--', 'BAG'],
+        ['--topics', 'a', 'b', '--clock', '5', 'BAG'],
+        ['--rate=2', 'BAG', '--topics', 'a', 'b'],
+    ],
+    ids=' '.join,
+)
+def test_bag_may_stand_behind_a_list(become, tmp_path, words):
+    node, parameters = become('play', *(str(tmp_path) if word == 'BAG' else word for word in words))
+    assert (node, parameters['bag']) == ('bag_player', str(tmp_path))
+    assert parameters['topics'] == ['a', 'b']
+    assert parameters.get('remap', ['a:=c']) == ['a:=c']
+    assert parameters.get('clock', 100.0) == (5.0 if '5' in words else 100.0)
+
+
+@pytest.mark.parametrize('words', [['a'], ['a', 'no bag'], ['a', '--loop']])
+def test_missing_bag_is_said_and_where_it_stands(command, words):
+    status, out, err = command('play', '--topics', *words)
+    assert (status, out) == (2, '')
+    assert err == (
+        'tactile_push play: error: the following arguments are required: BAG, before --topics; '
+        'see tactile_push play --help\n'
+    )
+
+
 def test_clock_has_a_rate_of_its_own_unless_one_is_given(become):
     assert become('play', 'bag', '--clock')[1]['clock'] == 100.0
 
