@@ -30,7 +30,8 @@ def advance_all(particles: Array, l: float, push: Push, moments: Array) -> None:
     """Push every particle for a control period."""
     for row in particles:
         pressure = Pressure(row[2], 0.0, 0.0, moments, 0.0)  # an ellipsoid, pushed at the belt
-        row[0], row[1], _ = advance(row[0], row[1], row[3], l, RADIUS, pressure, push, False)
+        end = advance(row[0], row[1], row[3], l, RADIUS, pressure, push, False)
+        row[0], row[1] = end.theta, end.d
 
 
 def particle_filter(group: Group, run: Run, rng: np.random.Generator) -> dict[int, Interval]:

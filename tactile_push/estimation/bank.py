@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from tactile_push.estimation import hypotheses
-from tactile_push.estimation.hypotheses import THETA, D, ModelErrors
+from tactile_push.estimation.hypotheses import ModelErrors
 from tactile_push.estimation.mixture import hull_of_intervals
 from tactile_push.estimation.prior import Prior, spread
 from tactile_push.estimation.resistance import Push
+from tactile_push.estimation.unknowns import THETA, D
 from tactile_push.mechanics.compiled import Array
 
 LONGEST_PUSH = 1e-3  # of the hypotheses [m]: a longer one is taken in parts

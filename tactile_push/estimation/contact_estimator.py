@@ -10,9 +10,9 @@ import numpy as np
 from tactile_push.estimation.bank import Bank, Liberties
 from tactile_push.estimation.contradictions import IMPOSSIBLE, Watch
 from tactile_push.estimation.guaranteed import GuaranteedSet, ModelBounds
-from tactile_push.estimation.hypotheses import ALPHA, LOG_C, THETA, D, L, R
 from tactile_push.estimation.prior import Prior, friction
 from tactile_push.estimation.recent import Recent
+from tactile_push.estimation.unknowns import ALPHA, LOG_C, THETA, D, L, R
 from tactile_push.mechanics.compiled import Array
 from tactile_push.paper import FINGER_RADIUS
 

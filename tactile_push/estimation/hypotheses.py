@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Many guesses of where on the edge the finger is: the mechanics moves them, readings correct them.
 
-A hypothesis is a weight and a Gaussian of the nine numbers that the mechanics needs, in the order
-of the columns below. A push moves points around the mean by `pushed_twist` (the cubature rule,
-exact to the third order), so sticking, slipping and the passage between them need no derivatives.
+A hypothesis is a weight and a Gaussian of the nine numbers that the mechanics needs (`unknowns`).
+A push moves points around the mean by `pushed_twist` (the cubature rule, exact to the third order),
+so sticking and slipping need no derivatives. The passage between them is a kink, which points miss:
+`onset` puts right what they say of it.
 A reading of theta corrects the Gaussian as in a Kalman filter, and its likelihood changes the
 weight. Narrow hypotheses side by side stand for any prior; where data have made them narrower than
 their distance, one is enough.
@@ -18,20 +19,30 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tactile_push.estimation.onset import (
+    BEYOND_LEFT,
+    BEYOND_RIGHT,
+    COLUMNS,
+    SLIP,
+    Moved,
+    beyond_motion_cone,
+    slip_as_a_gaussian_does,
+)
 from tactile_push.estimation.resistance import LEAST_COSINE, Pressure, Push, cone_of_angle, settled
+from tactile_push.estimation.unknowns import (
+    ALPHA,
+    GROWTH,
+    LOG_C,
+    SHAPE,
+    THETA,
+    TILT,
+    UNKNOWNS,
+    D,
+    L,
+    R,
+)
 from tactile_push.mechanics.compiled import Array, compiled, equation
 from tactile_push.mechanics.motion import pushed_twist
-
-THETA = 0  # angle of the edge [rad]
-D = 1  # contact along the edge [m]
-LOG_C = 2  # ln(c/1 m), which has no bound that a Gaussian could cross
-ALPHA = 3  # half angle of the friction cone, atan(mu_c) [rad]
-L = 4  # distance from the edge to the centre of mass [m]
-R = 5  # radius of the finger's disk [m]
-GROWTH = 6  # by how much c^2 grows while the object turns, see `resistance`
-SHAPE = 7  # how far c^2 depends on the direction of motion, see `resistance`
-TILT = 8  # mu_s times the height of the push above the support [m], see `resistance`
-UNKNOWNS = 9
 
 LASTING = 5e-3  # way over which errors last, and over which the motion is averaged [m]
 SHORTEST = 1e-9  # way that counts as none [m]
@@ -49,13 +60,14 @@ class ModelErrors(NamedTuple):
     drift: float
 
 
-class Moved(NamedTuple):
-    """Where a push takes a hypothesis: means over its points [rad, m, m] and what share slips."""
+class End(NamedTuple):
+    """Where a push takes an object."""
 
-    theta: float
-    d: float
-    slip: float
-    slipping: float
+    theta: float  # [rad]
+    d: float  # [m]
+    slip: float  # to the right [m]
+    beyond_left: float  # how far the finger is beyond the motion cone's edges [m], see `onset`
+    beyond_right: float
 
 
 @equation
@@ -68,8 +80,8 @@ def advance(
     pressure: Pressure,
     push: Push,
     curved: bool,
-) -> tuple[float, float, float]:
-    """Push for a short while, by the midpoint rule: return theta, d and how far the contact slips.
+) -> End:
+    """Push for a short while, by the midpoint rule.
 
     A friction angle beyond 0 or pi/2 counts as the bound. `l` is the radius of a `curved` object, a
     disk about its centre of mass.
@@ -93,10 +105,15 @@ def advance(
         v_t, v_n, d_half, -l_shifted, cos_alpha, sin_alpha, math.sqrt(c_squared)
     )
     v_along = v_slip - omega * r + passing
-    return (
+    left, right = beyond_motion_cone(
+        v_t, v_n, v_slip, d_half, -l_shifted, cos_alpha, sin_alpha, math.sqrt(c_squared)
+    )
+    return End(
         theta + duration * (omega + around * v_along),
         d + duration * along * v_along,
         duration * v_slip,
+        duration * left,
+        duration * right,
     )
 
 
@@ -144,7 +161,7 @@ def push_points(
     curved: bool,
     ends: Array,
 ) -> Moved:
-    """Push every point, write down theta and d at its end, and return the means."""
+    """Push every point, write down its end, and return the means."""
     theta, d, slip, slipping, weight = 0.0, 0.0, 0.0, 0.0, 0.5 / pairs
     point = np.empty(UNKNOWNS)
     for i in range(2 * pairs):
@@ -154,13 +171,15 @@ def push_points(
         pressure = Pressure(
             math.exp(2.0 * log_c), point[GROWTH], point[SHAPE], moments, point[TILT]
         )
-        ends[i, 0], ends[i, 1], point_slip = advance(
+        end = advance(
             point[THETA], point[D], point[ALPHA], point[L], point[R], pressure, push, curved
         )
-        theta += weight * ends[i, 0]
-        d += weight * ends[i, 1]
-        slip += weight * point_slip
-        slipping += weight * (point_slip != 0.0)
+        ends[i, THETA], ends[i, D], ends[i, SLIP] = end.theta, end.d, end.slip
+        ends[i, BEYOND_LEFT], ends[i, BEYOND_RIGHT] = end.beyond_left, end.beyond_right
+        theta += weight * end.theta
+        d += weight * end.d
+        slip += weight * end.slip
+        slipping += weight * (end.slip != 0.0)
     return Moved(theta, d, slip, slipping)
 
 
@@ -261,19 +280,24 @@ def predict(
     the frame of the edge [rad] and turn per l of its way [rad]; NaN before the first push.
     """
     root = np.zeros((UNKNOWNS, UNKNOWNS))
-    ends = np.empty((2 * UNKNOWNS, 2))
+    ends = np.empty((2 * UNKNOWNS, COLUMNS))
     deviations = np.empty((2 * UNKNOWNS, UNKNOWNS))
+    missed = np.empty(UNKNOWNS)
     for h in range(len(means)):
         mean, covariance = means[h], covariances[h]
         factorise(covariance, root)
         uncertain = place_points(root, deviations)
-        moved = push_points(mean, deviations, max(uncertain, 1), moments, push, curved, ends)
+        pairs = max(uncertain, 1)
+        moved = push_points(mean, deviations, pairs, moments, push, curved, ends)
+        gather(covariance, deviations, uncertain, ends, moved.theta, moved.d)
+        moved = slip_as_a_gaussian_does(
+            mean, covariance, deviations, pairs, ends, moved, curved, missed
+        )
         turn, way, direction = motion_of(mean, moved, push, curved)
         if way > 0.0:
             change = change_motion(motions[h], direction, turn * mean[L] / way, way)
             covariance[LOG_C, LOG_C] += errors.drift**2 * change
         mean[THETA], mean[D] = moved.theta, moved.d
-        gather(covariance, deviations, uncertain, ends, moved.theta, moved.d)
         add_errors(mean, covariance, moved, turn, way, errors, curved)
 
 

@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from tactile_push.estimation.hypotheses import ALPHA, GROWTH, LOG_C, SHAPE, TILT, UNKNOWNS, D, L, R
+from tactile_push.estimation.unknowns import ALPHA, GROWTH, LOG_C, SHAPE, TILT, UNKNOWNS, D, L, R
 from tactile_push.mechanics import check_friction
 from tactile_push.mechanics.compiled import Array
 

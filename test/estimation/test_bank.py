@@ -10,8 +10,8 @@ import pytest
 
 from support.pushed_block import HALF, RADIUS
 from tactile_push.estimation.bank import Bank, Liberties
-from tactile_push.estimation.hypotheses import ALPHA, THETA, D, L
 from tactile_push.estimation.prior import Prior
+from tactile_push.estimation.unknowns import ALPHA, THETA, D, L
 
 NOISE = 0.002
 RIGID = Liberties((0.0, 0.0), (0.0, 0.0), 0.0, 0.0, 0.0)

@@ -8,8 +8,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from tactile_push.estimation.hypotheses import ALPHA, GROWTH, LOG_C, SHAPE, TILT, D, L, R
 from tactile_push.estimation.prior import NONE, SOME, STICKS, Prior, friction, spread
+from tactile_push.estimation.unknowns import ALPHA, GROWTH, LOG_C, SHAPE, TILT, D, L, R
 
 BLOCK = Prior((-0.025, 0.025), 0.02375)
 SURE = (0.0135, 0.0), (1.5, 0.0), (0.5, 0.0)
