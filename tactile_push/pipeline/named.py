@@ -11,6 +11,7 @@ from tactile_push.interface import JOINT_STATES
 # What a joint state was: taken, with numbers of no use, without a position of each joint.
 TAKEN, REFUSED = 'joint states', 'joint states refused'
 OTHER_JOINTS = 'joint states of other joints'
+FARTHEST = 1e6  # that a joint turns [rad]; sums and sines of larger numbers tell nothing; picked
 NAMES_SHOWN, LETTERS_SHOWN = 8, 40  # of names that somebody else chose; picked
 
 
@@ -68,7 +69,8 @@ class Joints:
         Returns
         -------
         list of float
-            Angles in the order of the joints [rad]; None if the message does not have them all.
+            Angles in the order of the joints [rad], NaN for one that no joint has; None if the
+            message does not have them all.
         """
         values = by_name(names, positions)
         angles = [values[name] for name in self._names if name in values]
@@ -80,10 +82,11 @@ class Joints:
             self._note(names, values)
         if not self._complete:
             return None
-        if not all(map(math.isfinite, angles)):
-            for name, angle in zip(self._names, angles, strict=True):
-                self._faults[name] = '' if math.isfinite(angle) else f'is {angle}'
-        return angles
+        usable = [abs(angle) <= FARTHEST for angle in angles]
+        if not all(usable):
+            for name, angle, is_usable in zip(self._names, angles, usable, strict=True):
+                self._faults[name] = '' if is_usable else f'is {angle}'
+        return [angle if ok else math.nan for angle, ok in zip(angles, usable, strict=True)]
 
     @property
     def trouble(self) -> str:

@@ -128,9 +128,10 @@ def test_a_belt_that_stops_under_the_law_is_told():
     for seed in range(0, 24, 2):
         stands_from = 20 + 6 * seed
         made = pushes_by_a_tip(seed, stands_from + 80, stands_from=stands_from)
-        assert first_reason(made) in (STILL, '')
         if abs(made[stands_from].theta - math.radians(-10.0)) > math.radians(2.0):
             assert first_reason(made) == STILL
+        else:  # the edge would hardly turn anyway, as it does if the finger pushes elsewhere
+            assert first_reason(made) in (STILL, MOVED, '')
 
 
 @pytest.mark.slow

@@ -508,7 +508,8 @@ def test_real_finger_that_nobody_stops_is_a_broken_promise(real):
     outcome = real.run(
         Fault('rigged', 'stops', lambda bench: bench.stopped(time.monotonic(), 1.0), 0.45, PLAIN)
     )
-    assert outcome.broken == [
+    # A word about a machine that stood still may follow.
+    assert outcome.broken[:2] == [
         'waited 1 s in vain for /finger to stop',
         'no reaction was measured',
     ]

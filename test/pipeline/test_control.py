@@ -125,11 +125,14 @@ def test_a_new_start_grants_no_more_time_without_a_place(control):
     assert pushing_on(control, 2, lost)[-1].stop_reason == FINGER_UNKNOWN
 
 
-def test_joint_angles_that_are_no_numbers_are_told_and_not_taken(control):
+@pytest.mark.parametrize(
+    'angles', [[math.inf, 0.0], [0.0, math.nan], [1.7e308, 1.7e308], [0.0, -1e300], [1e7, 0.0]]
+)
+def test_angles_that_no_joint_has_are_told_and_not_taken(control, angles):
     assert control.joint_states((1, 0), JOINTS, ANGLES) == TAKEN
-    assert control.joint_states((2, 0), JOINTS, [math.inf, 0.0]) == REFUSED
-    assert control.joint_states((2, 0), JOINTS, [0.0, math.nan]) == REFUSED
+    assert control.joint_states((2, 0), JOINTS, angles) == REFUSED
     assert control.tick((2, 0)).finger_age == pytest.approx(1.0)
+    assert control.trouble.startswith('joint_states: ')
 
 
 def test_time_since_the_last_tick_is_told_as_it_is_given(control):
