@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # make demo: run the demonstration; make test: run all tests; make test-quick: quick unit tests;
 # make lint: check without testing; make docs: build the documentation; make bench: measure speeds;
-# make faults: inject every fault; make fuzz: spoil every input; make soak: run for long.
+# make faults: inject every fault; make fuzz: spoil every input and surroundings; make soak: run for long.
 # Each sets up .venv the first time.
 
 PYTHON ?= python3
@@ -13,8 +13,8 @@ TEST_READY := $(VENV)/ready-to-test
 INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable
 
 # Tests of real nodes and messages, which unit tests are not.
-GRAPH := test/faults test/fuzzing test/nodes test/playing test/recording test/soaking test/system \
-  test/testing
+GRAPH := test/faults test/fuzzing test/hostile test/nodes test/playing test/recording \
+  test/soaking test/system test/testing
 # Three processes on two cores: while some wait for nodes the others compute. A file's tests share
 # what was started for them, so each process begins with its part of the files.
 PYTEST := $(BIN)/python -m pytest --numprocesses 3 --dist worksteal
@@ -43,6 +43,7 @@ faults: $(TEST_READY)
 
 fuzz: $(TEST_READY)
 	PYTHONPATH=test $(BIN)/python -m fuzzing
+	PYTHONPATH=test $(BIN)/python -m hostile
 
 soak: $(TEST_READY)
 	PYTHONPATH=test $(BIN)/python -m soaking

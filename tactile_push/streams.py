@@ -7,7 +7,7 @@ import os
 import sys
 import typing
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from io import TextIOWrapper
 
 PLAIN = {
@@ -78,6 +78,42 @@ def prepare_streams() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors='tactile_push.plain')
+
+
+def complain(who: str, words: object) -> None:
+    """Print a line on standard error.
+
+    Characters that would begin another line, or command the terminal, are written by their numbers:
+    names of files, topics and parameters may have them. If nobody can hear it, nothing is said.
+
+    Parameters
+    ----------
+    who : str
+        Command or node that complains.
+    words : object
+        What is wrong, or a warning.
+    """
+    text = ''.join(
+        one if one.isprintable() else one.encode('unicode_escape').decode() for one in str(words)
+    )
+    with suppress(OSError):
+        print(f'{who}: {text}', file=sys.stderr, flush=True)
+
+
+def is_nowhere(who: str) -> bool:
+    """Return whether the working directory is gone, and complain if so.
+
+    Parameters
+    ----------
+    who : str
+        Command or node that would work there.
+    """
+    try:
+        os.getcwd()
+    except OSError as error:
+        complain(who, f'working directory: {error.strerror}')
+        return True
+    return False
 
 
 def _plain(error: UnicodeError) -> tuple[str | bytes, int]:

@@ -10,7 +10,7 @@ import sys
 import pytest
 
 from support.commands import BAG, COMMAND, run_command
-from tactile_push.streams import PLAIN
+from tactile_push.streams import PLAIN, complain, is_nowhere
 
 PREPARED = 'import sys; from tactile_push.streams import prepare_streams; prepare_streams(); '
 
@@ -96,3 +96,36 @@ def test_commands_print_all_that_they_print_whatever_the_encoding(words):
         text = text.replace(character, plain)
     token = r'[-\w.%]*\w[-\w.%]*'  # and no lines of tables
     assert re.findall(token, told('ascii')) == re.findall(token, text)
+
+
+@pytest.mark.parametrize(
+    ('words', 'shown'),
+    [
+        ('a\nb', 'a\\nb'),
+        ('a\x1b[31mb\r', 'a\\x1b[31mb\\r'),
+        ('a\udcff.mcap', 'a\\udcff.mcap'),
+        ('a\u2028b\x85', 'a\\u2028b\\x85'),
+        (ValueError('θ: expected 1°'), 'θ: expected 1°'),
+    ],
+)
+def test_complaint_is_one_line_whatever_the_names_in_it(words, shown, capsys):
+    complain('someone', words)
+    assert capsys.readouterr().err == f'someone: {shown}\n'
+
+
+def test_complaint_that_nobody_can_hear_is_none(monkeypatch):
+    class Gone:
+        def write(self, text):
+            raise BrokenPipeError
+
+    monkeypatch.setattr(sys, 'stderr', Gone())
+    complain('someone', 'something')
+
+
+def test_folder_that_is_gone_is_told_once(tmp_path, monkeypatch, capsys):
+    (tmp_path / 'gone').mkdir()
+    monkeypatch.chdir(tmp_path / 'gone')
+    assert not is_nowhere('someone')
+    (tmp_path / 'gone').rmdir()
+    assert is_nowhere('someone')
+    assert capsys.readouterr().err == 'someone: working directory: No such file or directory\n'

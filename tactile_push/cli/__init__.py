@@ -12,7 +12,7 @@ from typing import NoReturn
 
 from tactile_push.cli.arguments import Commands, Parser, Refused
 from tactile_push.needs_ros import ros_is_missing
-from tactile_push.streams import STANDARD_OUTPUT, prepare_streams
+from tactile_push.streams import STANDARD_OUTPUT, complain, is_nowhere, prepare_streams
 
 # Exit statuses as shells give them to programs that SIGINT and SIGPIPE end.
 INTERRUPTED, READ_ENOUGH = 130, 141
@@ -50,6 +50,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for signum in (signal.SIGTERM, getattr(signal, 'SIGHUP', signal.SIGTERM)):
             if signal.getsignal(signum) != signal.SIG_IGN:  # as nohup asks
                 signal.signal(signum, _terminate)
+        if is_nowhere(command):
+            return 2
         if vars(options).pop('ros', False) and ros_is_missing(command):
             return 2
         status = options.run(options)
@@ -65,17 +67,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return READ_ENOUGH
         if isinstance(error, Refused):
             if str(error):
-                print(f'{command}: {error}', file=sys.stderr)
+                complain(command, error)
             return error.status
         if isinstance(error, MemoryError):
-            print(f'{command}: not enough memory', file=sys.stderr)
+            complain(command, 'not enough memory')
             return 1
         if not isinstance(error, OSError):
             raise
         where = f'{error.filename}: ' if error.filename else ''
         if error.filename == STANDARD_OUTPUT:
             _say_no_more()
-        print(f'{command}: {where}{error.strerror or error}', file=sys.stderr)
+        complain(command, f'{where}{error.strerror or error}')
         return 2
 
 

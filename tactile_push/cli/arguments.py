@@ -10,6 +10,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NoReturn, TypeAlias
 
+from tactile_push.streams import complain
+
 MOST_STEPS = 10_000_000  # their history takes half a gigabyte; more would be a slip
 BAG: dict[str, Any] = {
     'type': Path,
@@ -59,7 +61,8 @@ class Parser(argparse.ArgumentParser):
         """End with exit status 2."""
         if message.startswith(_MISSING) and self._lists:
             message += f', before {self._lists[0]}'
-        self.exit(2, f'{self.prog}: error: {message}; see {self.prog} --help\n')
+        complain(f'{self.prog}: error', f'{message}; see {self.prog} --help')
+        self.exit(2)
 
     def _nargs(self, word: str) -> int | str | None:
         action = self._option_string_actions.get(word)

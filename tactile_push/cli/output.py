@@ -16,6 +16,7 @@ from rich.progress import Progress
 from tactile_push.bags import BagError, BagReader
 from tactile_push.bags.disk import write_whole
 from tactile_push.cli.arguments import Refused
+from tactile_push.streams import complain
 
 WIDTH_OF_FILES = 160  # columns, where the output is no terminal
 
@@ -35,7 +36,7 @@ def wide_console() -> Console:
 
 def warner(command: str) -> Callable[[str], None]:
     """Return a function that prints a warning of a command."""
-    return lambda line: print(f'tactile_push {command}: warning: {line}', file=sys.stderr)
+    return lambda line: complain(f'tactile_push {command}: warning', line)
 
 
 @contextmanager

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from tactile_push.cli.arguments import Commands, number, rerun_options
 from tactile_push.interface import PUSH_CONTROLLER, node_in
+from tactile_push.streams import complain
 
 if TYPE_CHECKING:
     from tactile_push.replay import Comparison
@@ -62,7 +63,7 @@ def _replay(options: argparse.Namespace) -> int:
         for parameter in comparison.without_effect:
             warn(f'{options.config}: {parameter}: has no effect, the bag says what came of it')
         if not comparison.ticks:
-            print(f'tactile_push replay: {options.bag}: {_why_not(comparison)}', file=sys.stderr)
+            complain('tactile_push replay', f'{options.bag}: {_why_not(comparison)}')
         elif comparison.kept and (gains or options.config is not None):
             warn(
                 f'{_node(comparison)}: {comparison.kept} control periods are kept as recorded, '

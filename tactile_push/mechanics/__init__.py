@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Mechanics of a pushed object: Sections I and II of the paper."""
 
+from tactile_push.mechanics import numba_settings  # noqa: F401, before numba itself
+
+# isort: split
 from tactile_push.mechanics.body import Body, Finger, Pose
 from tactile_push.mechanics.commanded_point import CENTRE, CONTACT, POLE, added_way
 from tactile_push.mechanics.contact import clearance, contact, tangent_angle

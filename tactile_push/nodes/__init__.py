@@ -9,7 +9,7 @@ from pathlib import Path
 from types import FrameType
 
 from tactile_push.needs_ros import ros_is_missing
-from tactile_push.streams import prepare_streams
+from tactile_push.streams import complain, is_nowhere, prepare_streams
 
 
 def _end_at_once(signum: int, frame: FrameType | None) -> None:
@@ -40,8 +40,8 @@ if _is_imported_by_a_node():
         try:
             print(node_help(_name()), flush=True)
         except OSError as error:
-            print(f'{_name()}: {error.filename}: {error.strerror}', file=sys.stderr)
+            complain(_name(), f'{error.filename}: {error.strerror}')
             os._exit(2)  # or Python would try again
         sys.exit()
-    if ros_is_missing(_name()):
+    if is_nowhere(_name()) or ros_is_missing(_name()):
         sys.exit(2)

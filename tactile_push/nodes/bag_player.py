@@ -21,6 +21,7 @@ from tactile_push.parameters import BagPlayerParameters
 from tactile_push.playing.player import Player
 from tactile_push.playing.schedule import Part, part_of, topic_in_bag
 from tactile_push.playing.terminal import Terminal
+from tactile_push.streams import complain
 
 TERMINAL_PERIOD = 0.05  # between looks at the keyboard [s]; a person does not notice less
 PAUSE_KEYS, STEP_KEYS = (' ',), ('s', '\x1b[C', '\x1bOC')  # the last two are the right arrow
@@ -115,7 +116,7 @@ class BagPlayer(Node):
             self.context.shutdown()
         elif isinstance(error, BagError):
             self._terminal.close()
-            print(f'{self.NAME}: {error}', file=sys.stderr)
+            complain(self.NAME, error)
             sys.exit(1)
         else:
             raise error

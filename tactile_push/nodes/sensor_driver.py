@@ -128,7 +128,9 @@ class SensorDriver(ManagedNode):
         if condition == Condition.INACTIVE:
             return Health(OK, condition.value, values)
         if condition != Condition.READING:
-            return Health(ERROR, condition.value, values)
+            waits = condition == Condition.NO_BYTES and self._settings.device.startswith('socket:')
+            hint = '; sim_plant sends none while it compiles' if waits else ''
+            return Health(ERROR, condition.value + hint, values)
         rates = self._diagnostics.rates
         for message, slips in (
             ('no simulated time yet', ['unstamped']),

@@ -15,6 +15,7 @@ from typing import Any
 import yaml
 
 from tactile_push.parameters.ros_scalar import scalar
+from tactile_push.small_files import read_small_file
 
 PARAMS_KEY = 'ros__parameters'
 EACH_NODE_HAS = ('use_sim_time', 'start_type_description_service')
@@ -52,7 +53,7 @@ def read_sections(file: Path) -> Sections:
     """
     reader, line = _Reader(), 0
     try:
-        for event in yaml.parse(file.read_bytes(), Loader=_LOADER):
+        for event in yaml.parse(read_small_file(file), Loader=_LOADER):
             line = event.start_mark.line + 1
             reader.take(event)
     except yaml.YAMLError as error:

@@ -17,6 +17,7 @@ from typing import Any
 
 from tactile_push.mechanics import Outline, Support
 from tactile_push.mechanics.size import check_metres
+from tactile_push.small_files import read_small_file
 
 Form = tuple[Callable[[Any], bool], str]
 
@@ -99,7 +100,7 @@ def read_support(file: Path) -> Support:
 
 def _read(file: Path) -> dict[str, Any]:
     try:
-        content = json.loads(file.read_text())
+        content = json.loads(read_small_file(file).decode())
     except RecursionError:
         raise ValueError(f'{file}: expected JSON, got one nested too deeply') from None
     except ValueError as error:  # neither JSON nor text

@@ -70,7 +70,7 @@ def test_folder_that_is_gone_is_no_fault_of_standard_output(tmp_path):
         [sys.executable, '-c', program], cwd=tmp_path / 'gone', capture_output=True, text=True
     )
     assert done.returncode == 2
-    assert done.stderr == 'tactile_push info: bag: No such file or directory\n'
+    assert done.stderr == 'tactile_push info: working directory: No such file or directory\n'
 
 
 @pytest.mark.slow

@@ -3,6 +3,7 @@
 """The sensor driver's node: sentences of a device in, readings out."""
 
 import math
+import socket
 
 import pytest
 from rclpy.lifecycle import TransitionCallbackReturn
@@ -92,6 +93,19 @@ def test_a_device_that_is_not_there_is_an_error_until_it_comes(bench, tmp_path):
     )
     assert node._counts()['connections'] == 1
     server.close()
+
+
+def test_a_simulated_sensor_that_is_silent_may_be_compiling_and_that_is_said(bench):
+    with socket.create_server(('127.0.0.1', 0)) as listener:
+        url = f'socket://127.0.0.1:{listener.getsockname()[1]}'
+        bench.start(SensorDriver, device=url, silence_timeout=0.1)
+        words = 'no bytes; sim_plant sends none while it compiles'
+        bench.until(lambda: bench.health == (ERROR, words))
+
+
+def test_a_silent_line_is_no_simulation(bench, device):
+    bench.start(SensorDriver, device=device[0], silence_timeout=0.1)
+    bench.until(lambda: bench.health == (ERROR, 'no bytes'))
 
 
 def test_what_goes_wrong_between_readings_is_counted_and_a_warning(bench, device):

@@ -3,8 +3,9 @@
 """Lets a node start where ROS cannot write a log file."""
 
 import os
-import sys
 from pathlib import Path
+
+from tactile_push.streams import complain
 
 WITHOUT = ['--ros-args', '--disable-external-lib-logs']
 
@@ -29,5 +30,5 @@ def log_arguments(node: str) -> list[str]:
             if os.access(folder, os.W_OK):
                 return []
             reason = f'{folder}: cannot be written'
-    print(f'{node}: no log file: {reason}', file=sys.stderr)
+    complain(node, f'no log file: {reason}')
     return WITHOUT

@@ -5,6 +5,7 @@
 import re
 import signal
 import sys
+from itertools import pairwise
 from types import FrameType
 
 import rclpy
@@ -19,6 +20,8 @@ from tactile_push.nodes.ros.executor import Executor
 from tactile_push.nodes.ros.last_resort import exit_after
 from tactile_push.nodes.ros.log_files import log_arguments
 from tactile_push.nodes.ros.parameters import ConfigurationError
+from tactile_push.small_files import is_named_pipe
+from tactile_push.streams import complain
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # by a person, a manager, a terminal
 FAREWELL = 2.0  # for the middleware to leave [s]; a healthy one takes a fraction of it
@@ -40,6 +43,9 @@ def run(node_class: type[Node]) -> int:
     for signum in SIGNALS:
         if signum != signal.SIGHUP or signal.getsignal(signum) != signal.SIG_IGN:  # as nohup asks
             signal.signal(signum, stop)
+    for option, file in pairwise(sys.argv):
+        if option == '--params-file' and is_named_pipe(file):  # rcl would wait
+            return _refuse(node_class, f'{file}: expected a file, got a named pipe')
     set_logger_level('rcl', LoggingSeverity.FATAL)  # it logs what it also throws
     try:
         foreign = remove_ros_args(sys.argv)[1:]
@@ -76,7 +82,7 @@ def run(node_class: type[Node]) -> int:
             except OSError as error:
                 status = 1
                 where = '' if error.filename is None else f'{error.filename}: '
-                print(f'{node_class.NAME}: {where}{error.strerror or error}', file=sys.stderr)
+                complain(node_class.NAME, f'{where}{error.strerror or error}')
             # Fast DDS built for an old C library waits for ever, without letting go of the
             # interpreter, if it is just being told of another node that comes or goes.
             exit_after(FAREWELL, status)
@@ -95,5 +101,5 @@ def _brief(error: Exception) -> str:
 
 
 def _refuse(node_class: type[Node], reason: str) -> int:
-    print(f'{node_class.NAME}: {reason}', file=sys.stderr)
+    complain(node_class.NAME, reason)
     return 2
