@@ -28,7 +28,7 @@ from tactile_push.bags.mcap_file import McapFile, Message
 from tactile_push.bags.mcap_records import DamageError
 from tactile_push.bags.merge import Batch, in_order
 from tactile_push.bags.qos import read_profiles
-from tactile_push.bags.sources import BagError
+from tactile_push.bags.sources import BagError, one_line
 from tactile_push.bags.topic import Topic
 
 # Longest message of a type without fields: the encapsulation header, a byte, padding [bytes].
@@ -74,7 +74,7 @@ class BagReader:
             if self.path.name == METADATA and self.path.is_file():
                 self.path = self.path.parent
             metadata = self._metadata()
-            files = find_files(self.path, metadata, warn)
+            files = find_files(self.path, metadata, self.warn)
         except OSError as error:
             raise BagError(f'{self.path}: {error.strerror or error}') from None
         self._files = self._open_files(files)
@@ -138,7 +138,7 @@ class BagReader:
         """
         if line not in self._warned:
             self._warned.add(line)
-            self._warn(line)
+            self._warn(one_line(line))
 
     def decode(self, message: Message) -> Any:
         """Decode a message by the schema in the bag; BagError if it does not decode.

@@ -15,8 +15,36 @@ _STEP = 1 << 20
 _LARGEST_WINDOW = 1 << 27
 
 
+def one_line(text: str) -> str:
+    """Write text from a bag so that it breaks no line and gives a terminal no orders.
+
+    Parameters
+    ----------
+    text : str
+        Names and values that somebody else chose.
+
+    Returns
+    -------
+    str
+        The text, with escapes as in Python for what is not printable.
+    """
+    return ''.join(
+        letter if letter.isprintable() else letter.encode('unicode_escape').decode()
+        for letter in text
+    )
+
+
 class BagError(Exception):
-    """A bag that cannot be read, or a mistake about one: a line that says where and what."""
+    """A bag that cannot be read, or a mistake about one: a line that says where and what.
+
+    Parameters
+    ----------
+    text : str
+        The line, with names as they stand in the bag.
+    """
+
+    def __init__(self, text: str) -> None:
+        super().__init__(one_line(text))
 
 
 class Source(Protocol):

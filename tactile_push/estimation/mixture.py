@@ -13,7 +13,7 @@ REACH = 4.5  # standard deviations beyond which a Gaussian is taken to have noth
 NEGLIGIBLE = 1e-6  # weight
 EXACT = 1e-4  # error of the share
 FINE = 1e-6  # last bracket, of the first one: where the mixture has a step
-KIND_EXCLUDED = 0.01  # evidence of a kind of friction, of the best one's, that excludes it
+KIND_EXCLUDED = 0.02  # evidence of a kind of friction, of the best one's, that excludes it
 LOWER, UPPER = 0.025, 0.975  # shares below the ends of an interval
 
 

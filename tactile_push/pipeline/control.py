@@ -107,7 +107,7 @@ class Control:
         joints = self._joints.angles(names, positions)
         if joints is None:
             return OTHER_JOINTS
-        if not math.isfinite(sum(joints[:2])):
+        if not all(map(math.isfinite, joints[:2])):
             return REFUSED
         x, turning = self._finger.forward(*joints[:2]).x, self._finger.turning(*joints[:2])
         psi = pole_angle(self._finger.mount_angle, joints)

@@ -18,6 +18,7 @@ from tactile_push.interface import (
     CONTACT,
     CONTROLLER_STATE,
     PLANTS,
+    PUSH_CONTROLLER,
     SENSOR_DRIVER,
     SIM_PLANT,
     TACTILE,
@@ -127,7 +128,7 @@ class Rig:
         self.start_node('contact_geometry', simulated)
         hearing = {CONTACT: 2}
         if controller:
-            self.start_node('push_controller', {'autostart': False, **simulated})
+            self.start_node(PUSH_CONTROLLER, {'autostart': False, **simulated})
             self._change_controller(Transition.TRANSITION_CONFIGURE)
             hearing = {CONTACT: 3, COMMAND: 4, CONTROLLER_STATE: 1}
         self.observer.wait_for(
@@ -215,8 +216,9 @@ class Rig:
         )
 
     def _change_controller(self, transition: int) -> None:
-        if not self.observer.change_state(self.name('push_controller'), transition):
-            raise RuntimeError(f'push_controller refused transition {transition}')
+        if not self.observer.change_state(self.name(PUSH_CONTROLLER), transition):
+            said = self.nodes.log(self.process(PUSH_CONTROLLER)).read_text(errors='replace')
+            raise RuntimeError(f'{PUSH_CONTROLLER} refused transition {transition}: {said}')
 
     def _heard_by(self, subscribers: Mapping[str, int]) -> bool:
         count = self.observer.node.count_subscribers

@@ -112,3 +112,13 @@ def test_command_refuses_bad_bags_in_one_line(tmp_path, info_of):
         assert (status, out) == (2, '')
         assert len(err.splitlines()) == 1
         assert err.startswith(f'tactile_push info: {tmp_path / wrong}')
+
+
+def test_names_and_notes_of_a_bag_do_not_move_the_terminal(tmp_path, info_of):
+    topics = {'/a\x1b[2J\nb': clocks(1, 2)}
+    notes = {'tactile_push.version': '1\x1b]0;title\x07'}
+    status, out, _ = info_of(write_file(tmp_path / 'bag.mcap', topics, notes))
+    assert status == 0
+    assert r'/a\x1b[2J\nb' in out
+    assert r'1\x1b]0;title\x07' in out
+    assert all(letter.isprintable() for letter in out.replace('\n', ''))

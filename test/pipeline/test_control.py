@@ -99,12 +99,6 @@ def test_joint_states_that_cannot_be_used_stop_the_finger_after_their_timeout(
     assert control.tick((2, 200_000_000)).stop_reason == NO_REASON
 
 
-@pytest.mark.parametrize('angles', [[math.nan, 0.0], [0.0, -math.inf], [1.7e308, 1.7e308]])
-def test_angles_whose_sum_is_not_finite_are_refused(control, angles):
-    assert control.joint_states((1, 0), JOINTS, angles) == REFUSED
-    assert control.joint_states((1, 0), JOINTS, ANGLES) == TAKEN
-
-
 def test_without_any_joint_states_the_finger_pushes(control):
     ticks = pushing_on(control, 12)
     assert {tick.stop_reason for tick in ticks} == {NO_REASON}
