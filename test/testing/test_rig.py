@@ -23,6 +23,10 @@ class Nodes:
 
     def __init__(self):
         self.started = {}
+        self.folder = None
+
+    def log(self, name):
+        return self.folder / f'{name}.log'
 
     def start(self, node, parameters, *, config, name, arguments):
         self.started[name] = SimpleNamespace(
@@ -129,10 +133,12 @@ def test_controller_is_not_activated_before_the_nodes_hear_each_other(rig):
     ]
 
 
-def test_controller_that_refuses_fails_the_start(rig):
+def test_controller_that_refuses_fails_the_start_with_its_own_words(rig, tmp_path):
     heard_all(rig)
     rig.observer.refuses = True
-    with pytest.raises(RuntimeError, match='push_controller refused transition 1'):
+    rig.nodes.folder = tmp_path
+    (tmp_path / 'push_controller.log').write_text('why it did')
+    with pytest.raises(RuntimeError, match='push_controller refused transition 1: why it did'):
         rig.start()
 
 
