@@ -6,6 +6,7 @@ import codecs
 import os
 import sys
 import typing
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from io import TextIOWrapper
@@ -78,6 +79,16 @@ def prepare_streams() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors='tactile_push.plain')
+
+
+def ignore_warnings_that_end() -> None:
+    """Ignore Python's warnings if they would be errors, as PYTHONWARNINGS or -W has it.
+
+    What a library says of another would otherwise end the process, and a finger's node with it.
+    """
+    actions = [option.partition(':')[0] for option in sys.warnoptions]
+    if any(action and 'error'.startswith(action) for action in actions):
+        warnings.simplefilter('ignore')
 
 
 def complain(who: str, words: object) -> None:

@@ -129,3 +129,22 @@ def test_folder_that_is_gone_is_told_once(tmp_path, monkeypatch, capsys):
     (tmp_path / 'gone').rmdir()
     assert is_nowhere('someone')
     assert capsys.readouterr().err == 'someone: working directory: No such file or directory\n'
+
+
+@pytest.mark.parametrize(
+    ('options', 'shown'),
+    [
+        ('error', False),
+        ('default,error::DeprecationWarning', False),
+        ('e', False),
+        ('default', True),
+    ],
+)
+def test_warnings_of_libraries_end_nothing(options, shown):
+    program = (
+        'from tactile_push.streams import ignore_warnings_that_end as ignore; ignore(); '
+        'import warnings; warnings.warn("old", DeprecationWarning); print("goes on")'
+    )
+    ended = run_python(program, env={**os.environ, 'PYTHONWARNINGS': options})
+    assert ended.stdout == b'goes on\n'
+    assert (b'old' in ended.stderr) == shown

@@ -3,6 +3,7 @@
 """The `tactile_push` command: its subcommands, exit statuses and signals."""
 
 import argparse
+import logging
 import os
 import signal
 import sys
@@ -12,7 +13,13 @@ from typing import NoReturn
 
 from tactile_push.cli.arguments import Commands, Parser, Refused
 from tactile_push.needs_ros import ros_is_missing
-from tactile_push.streams import STANDARD_OUTPUT, complain, is_nowhere, prepare_streams
+from tactile_push.streams import (
+    STANDARD_OUTPUT,
+    complain,
+    ignore_warnings_that_end,
+    is_nowhere,
+    prepare_streams,
+)
 
 # Exit statuses as shells give them to programs that SIGINT and SIGPIPE end.
 INTERRUPTED, READ_ENOUGH = 130, 141
@@ -43,7 +50,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, interrupt)
     prepare_streams()
+    ignore_warnings_that_end()
     os.environ.pop('MPLBACKEND', None)  # a notebook's, which need not exist here; files need none
+    logging.getLogger('matplotlib').setLevel(logging.ERROR)  # it explains where it keeps its fonts
     try:
         name, options = _parse(arguments)
         command = f'tactile_push {name}'

@@ -65,12 +65,14 @@ def _demo(options: argparse.Namespace) -> int:
         return 2
     tasks = {name: bar.add_task(name, total=demo.STEPS) for name in demo.RIGS}
     try:
-        with naming(options.out), bar:
-            results = demo.run_demo(
-                options.out,
-                lambda name, steps: bar.update(tasks[name], completed=min(steps, demo.STEPS)),
-                plant,
-            )
+        with naming(options.out):
+            options.out.mkdir(parents=True, exist_ok=True)  # before a bar is shown in vain
+            with bar:
+                results = demo.run_demo(
+                    options.out,
+                    lambda name, steps: bar.update(tasks[name], completed=min(steps, demo.STEPS)),
+                    plant,
+                )
     except demo.DemoError as error:
         raise Refused(error, status=1) from None
     if options.json:

@@ -9,7 +9,12 @@ from pathlib import Path
 from types import FrameType
 
 from tactile_push.needs_ros import ros_is_missing
-from tactile_push.streams import complain, is_nowhere, prepare_streams
+from tactile_push.streams import (
+    complain,
+    ignore_warnings_that_end,
+    is_nowhere,
+    prepare_streams,
+)
 
 
 def _end_at_once(signum: int, frame: FrameType | None) -> None:
@@ -30,6 +35,7 @@ def _is_imported_by_a_node() -> bool:
 
 if _is_imported_by_a_node():
     prepare_streams()
+    ignore_warnings_that_end()
     # A node that is interrupted while it still imports has nothing to stop and nothing to say.
     signal.signal(signal.SIGINT, _end_at_once)
     signal.signal(signal.SIGTERM, _end_at_once)

@@ -10,13 +10,14 @@ from hostile.walk import HANGS, Ended, run
 
 SHORT = [
     ('info', ('no folder', 'TMPDIR that is nowhere', 'no HOME', 'all closed')),
-    ('report', ('MPLBACKEND of a notebook', 'matplotlib without a folder', 'ASCII', 'one column')),
+    ('simulate and plot', ('MPLBACKEND of a notebook', 'HOME that is a file', 'one column')),
+    ('info', ('ASCII', 'dumb terminal', 'unbuffered')),
     ('simulate', ('threads of no number', 'warnings are errors', 'Latin-9', 'closed error')),
     ('replay', ('few files', 'locale of nobody', 'output that nobody reads')),
     ('diff', ('both full', 'columns of no number', 'time zone of nobody', 'optimised')),
     ('push_controller refused', ('domain of no number', 'no folder', 'closed output')),
     ('sim_plant --help', ('output that nobody reads', 'locale C', 'HOME that is a file')),
-    ('bag_recorder refused', ('log that is not writable', 'error that nobody reads', 'no PATH')),
+    ('bag_recorder refused', ('log that is not writable', 'warnings are errors', 'no PATH')),
 ]
 
 
