@@ -26,7 +26,15 @@ from tactile_push.interface import (
     SIM_PLANT,
     TRUE_STATE,
 )
-from tactile_push.paper import BLOCK, BLOCK_L, DISK, DISK_RADIUS, PAPER, PaperFigures
+from tactile_push.paper import (
+    BLOCK,
+    BLOCK_L,
+    DISK,
+    DISK_RADIUS,
+    FINGER_RADIUS,
+    PAPER,
+    PaperFigures,
+)
 from tactile_push.parameters import config_file
 from tactile_push.report.columns import Column, read_tables, topics_of
 from tactile_push.report.merit import PushFigures, known_step, push_figures
@@ -157,7 +165,9 @@ def _evaluate(
     theta, phi = states['theta'][pushing], states['phi'][pushing]
     widths = sensed['d_upper'] - sensed['d_lower']
     result = RigResult(
-        push=push_figures(states, paper.band, DISTANCES[paper.object], paper.object),
+        push=push_figures(
+            *(states, paper.band, DISTANCES[paper.object], paper.object, FINGER_RADIUS)
+        ),
         theta_final=float(theta[-1]),
         phi_final=float(phi[-1]),
         d_final=float(tables[TRUE_STATE]['d'][-1]),

@@ -13,6 +13,7 @@ from tactile_push.estimation.translation import (
     bounds_of_translation,
     centre_on_ray,
     contact_of_translation,
+    surface_direction,
     translates,
 )
 
@@ -47,6 +48,7 @@ __all__ = [
     'edges_of',
     'intersect_rays',
     'sensing_values',
+    'surface_direction',
     'tells_pose',
     'translates',
 ]

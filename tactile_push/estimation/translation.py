@@ -43,6 +43,33 @@ def contact_of_translation(theta: float, phi: float, l: float) -> float:
     return -l * math.cos(beta) / math.sin(beta)
 
 
+def surface_direction(theta: float, phi: float, turning: float, lever: float) -> float:
+    """Compute the direction in which the finger's surface moves at the contact.
+
+    This is the phi of (17). Of a tip that turns while it moves it is not the push angle, because
+    the surface passes the point that follows the commands.
+
+    Parameters
+    ----------
+    theta : float
+        Angle of the pushed edge [rad].
+    phi : float
+        Direction of the commanded point relative to the support [rad], 0 < phi < pi.
+    turning : float
+        By how much the tip turns for each metre across the belt, dpsi/dx [rad/m].
+    lever : float
+        Distance of the contact from the commanded point, along the normal [m].
+
+    Returns
+    -------
+    float
+        Direction relative to the support [rad].
+    """
+    across = math.cos(phi)
+    passing = lever * turning * across
+    return math.atan2(math.sin(phi) - passing * math.sin(theta), across - passing * math.cos(theta))
+
+
 def bounds_of_translation(
     theta: tuple[float, float], phi: tuple[float, float], l: float
 ) -> tuple[float, float]:

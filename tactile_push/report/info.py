@@ -72,7 +72,9 @@ def bag_info(
     for name, columns in states.items():
         namespace = name.removesuffix(f'/{CONTROLLER_STATE}')
         pushed = pushed_object(parameters or {}, namespace)
-        pushes[namespace] = push_figures(columns.table(), band, pushed.l, pushed.object)
+        pushes[namespace] = push_figures(
+            *(columns.table(), band, pushed.l, pushed.object, pushed.lever)
+        )
         if pushed.remark:
             remarks.append(pushed.remark)
     return BagInfo(

@@ -10,14 +10,16 @@ from itertools import pairwise
 import numpy as np
 
 from tactile_push.control import PUSHING, STATES, STOP_REASONS, STOPPED, settle_step
-from tactile_push.estimation import contact_of_translation
+from tactile_push.estimation import contact_of_translation, surface_direction
 from tactile_push.paper import TRANSLATING_STEP, PaperFigures, Range, paper_figures
 from tactile_push.report.columns import Column, Table
 
+TIP = ('finger_x', 'psi')
 KNOWN = 0.002  # d is known if its 95 % interval is no wider; the paper reads off 1.8 mm [m]
 # What the figures are computed from.
 OF_STEPS = ('theta', 'theta_desired', 'phi', 'v_x', 'saturated', 'limited')
 FIELDS = (*OF_STEPS, 'silence', 'state', 'stop_reason', 'ticks', 'ticks_lost')
+STILL = 1e-4  # a finger that wanders by less does not tell how its tip turns [m]
 ROUNDING = 1e-9  # angles that differ by less are the same [rad]
 
 
@@ -62,16 +64,22 @@ class PushFigures:
 
 
 def push_figures(
-    states: Table, band: float, l: float | None = None, pushed: str | None = None
+    states: Table,
+    band: float,
+    l: float | None = None,
+    pushed: str | None = None,
+    lever: float = 0.0,
 ) -> PushFigures:
     """Compute how well a finger pushed.
 
     `states` are the columns of `push_controller/state`; 'stamp', if it is another time than 'time',
     is that of the header [s]. Theta counts as settled within `band` of its desired value as trimmed
     [rad]. `l` is the distance from the edge to the centre of mass [m], `pushed` is `BLOCK`, `DISK`
-    or `OTHER`; both are None if they are not known.
+    or `OTHER`; both are None if they are not known. `lever` is the distance of the contact from the
+    point of the tip that follows the commands [m].
     """
     time = states.get('time', np.empty(0))
+    has_tip = all(name in states for name in TIP)
     column = {name: states.get(name, np.full(len(time), math.nan)) for name in FIELDS}
     state = column['state']
     # In a bag that is older than the field, theta is finite while the law acts.
@@ -81,6 +89,7 @@ def push_figures(
     steps = int(pushing.sum())
     first = TRANSLATING_STEP if steps > TRANSLATING_STEP else steps - steps // 3
     theta, phi = step['theta'][first:], step['phi'][first:]
+    turning = _turning(*(states[name][pushing][first:] for name in TIP)) if has_tip else 0.0
     trim = states.get('trim', np.zeros(len(time)))[pushing]
     desired = step['theta_desired'] - trim
     desired = desired[np.isfinite(desired)]
@@ -99,7 +108,7 @@ def push_figures(
         theta_range=_range(theta),
         phi_range=_range(phi),
         l=l,
-        d_range=_d_range(phi - theta, l),
+        d_range=_d_range(theta, phi, l, turning, lever),
         v_x_range=_range(step['v_x']),
         saturated_share=_share(step['saturated']) if 'saturated' in states else None,
         limited_share=_share(step['limited']) if 'limited' in states else None,
@@ -133,8 +142,25 @@ def _range(values: Column) -> Range | None:
     return (float(values.min()), float(values.max())) if len(values) else None
 
 
-def _d_range(beta: Column, l: float | None) -> Range | None:
-    """Return the bounds on d by (17), which grows with beta = phi - theta."""
+def _turning(x: Column, psi: Column) -> float:
+    """Return by how much the tip turns for each metre across the belt [rad/m], 0 if unknown."""
+    known = np.isfinite(x) & np.isfinite(psi)
+    x, psi = x[known], np.unwrap(psi[known])
+    if len(x) < 2 or np.ptp(x) < STILL:
+        return 0.0
+    return float(np.polyfit(x - x.mean(), psi, 1)[0])
+
+
+def _d_range(
+    theta: Column, phi: Column, l: float | None, turning: float, lever: float
+) -> Range | None:
+    """Return the bounds on d by (17), which grows with the angle between surface and edge."""
+    beta = np.array(
+        [
+            surface_direction(angle, push, turning, lever) - angle
+            for angle, push in zip(theta, phi, strict=True)
+        ]
+    )
     bounds = _range(beta[(beta > 0.0) & (beta < math.pi)])
     if l is None or bounds is None:
         return None

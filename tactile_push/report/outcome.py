@@ -37,7 +37,8 @@ def outcome_of(ticks: Table, sensing: Table, pushed: Pushed) -> list[Row]:
         return []
     desired = float(ticks.get('theta_desired', [math.nan])[-1] - ticks.get('trim', [0.0])[-1])
     paper = paper_figures(desired, pushed.object)
-    push = push_figures(ticks, paper.band if paper else TOLERANCE, pushed.l, pushed.object)
+    band = paper.band if paper else TOLERANCE
+    push = push_figures(ticks, band, pushed.l, pushed.object, pushed.lever)
     known = None
     if 'state' in ticks and {'d_lower', 'd_upper'} <= sensing.keys():
         widths = sensing['d_upper'] - sensing['d_lower']

@@ -9,13 +9,14 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from tactile_push.interface import ACTIVE_SENSING, PLANTS, node_in
+from tactile_push.interface import ACTIVE_SENSING, PLANTS, POINTS, node_in
 from tactile_push.paper import (
     BLOCK,
     BLOCK_EDGE,
     BLOCK_L,
     DISK,
     DISK_RADIUS,
+    FINGER_RADIUS,
     OTHER,
     object_with,
 )
@@ -27,6 +28,7 @@ SIZES = {
     DISK: {'disk_radius': DISK_RADIUS},
 }
 OUTLINE = {'vertices', 'disk_radius'}  # the parameters of `active_sensing` that tell the object
+CENTRE = POINTS[0]
 ALIKE = 1e-3  # of lengths, in units of themselves
 
 
@@ -36,11 +38,26 @@ class Pushed(NamedTuple):
     object: str | None = None
     l: float | None = None
     remark: str = ''  # why l is not known, or what else nodes were told of it; empty if nothing
+    # Of the contact from the point of the tip that follows the commands [m]: the radius if this is
+    # the centre. The pole is near the contact.
+    lever: float = FINGER_RADIUS
 
 
 def pushed_object(parameters: Mapping[str, Mapping[str, object]], namespace: str) -> Pushed:
     """Return what the finger in a namespace pushed, by the parameters of its nodes."""
     plant, sensing = plant_in(namespace, parameters), node_in(namespace, ACTIVE_SENSING)
+    finger = parameters.get(plant, {}) or parameters.get(sensing, {})
+    return _pushed(parameters, plant, sensing)._replace(lever=_lever(finger))
+
+
+def _lever(finger: Mapping[str, object]) -> float:
+    radius = finger.get('finger_radius')
+    if finger.get('commanded_point', CENTRE) != CENTRE:
+        return 0.0
+    return radius if isinstance(radius, float) and math.isfinite(radius) else FINGER_RADIUS
+
+
+def _pushed(parameters: Mapping[str, Mapping[str, object]], plant: str, sensing: str) -> Pushed:
     pushed, l = plant_object(parameters.get(plant, {}))
     told, possible = _told_object(parameters.get(sensing, {}))
     words = ' or '.join(f'{one * 1e3:g}' for one in possible) + ' mm'

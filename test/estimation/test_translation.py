@@ -12,6 +12,7 @@ from tactile_push.estimation import (
     bounds_of_translation,
     centre_on_ray,
     contact_of_translation,
+    surface_direction,
     translates,
 )
 
@@ -37,6 +38,20 @@ def test_both_branches_of_17(theta, beta, l):
         expected = l / math.tan(math.pi + theta - phi)
 
     assert contact_of_translation(theta, phi, l) == pytest.approx(expected, rel=1e-12, abs=1e-16)
+
+
+@checked
+@given(thetas, st.floats(0.3, math.pi - 0.3), st.floats(-20.0, 20.0), st.floats(0.0, 0.02))
+def test_surface_of_a_turning_tip_moves_as_its_material_does(theta, phi, turning, lever):
+    def surface(way):
+        """Return where the tip's material is that touches the edge when the way is 0."""
+        x, y = way * math.cos(phi), way * math.sin(phi)
+        angle = theta + math.pi / 2.0 + turning * x  # from the centre to the contact
+        return np.array([x + lever * math.cos(angle), y + lever * math.sin(angle)])
+
+    x, y = surface(1e-6) - surface(-1e-6)
+    difference = surface_direction(theta, phi, turning, lever) - math.atan2(y, x)
+    assert math.remainder(difference, math.tau) == pytest.approx(0.0, abs=1e-6)
 
 
 def test_the_bounds_that_the_paper_finds():

@@ -17,7 +17,7 @@ INACTIVE, WAITING, PUSHING, STOPPED = range(4)
 CONTACT_SILENT, WORKSPACE_LIMIT, TICKS_LOST = 1, 3, 5
 
 
-def figures_of(rows, l=None, pushed=None, drop=()):
+def figures_of(rows, l=None, pushed=None, drop=(), lever=0.0):
     """Return the figures of states that are given by what is special about them."""
     usual = {
         'theta': 0.0,
@@ -36,7 +36,7 @@ def figures_of(rows, l=None, pushed=None, drop=()):
         values = {**usual, 'ticks': k + 1, **row}
         kept = {name: float(value) for name, value in values.items() if name not in drop}
         states.add(k * PERIOD, {'stamp': 1000.0 + k * PERIOD, **kept})
-    return push_figures(states.table(), BAND, l, pushed)
+    return push_figures(states.table(), BAND, l, pushed, lever)
 
 
 def columns(**values):
@@ -48,6 +48,23 @@ def test_steps_are_the_states_in_which_the_law_acts():
     rows = [{'state': state} for state in (WAITING, WAITING, PUSHING, STOPPED, PUSHING, INACTIVE)]
     figures = figures_of(rows)
     assert (figures.states, figures.steps) == (6, 2)
+
+
+def test_a_tip_that_turns_as_it_moves_takes_its_surface_along():
+    # The edge is across the belt, and the surface's direction, from the contact to the centre of
+    # mass, leads 5 mm back for 20 mm ahead; for each metre the tip turns by -12.5 rad.
+    l, d, r, turning, v_y = 0.02, 0.005, 0.0135, -12.5, 0.005
+    v_x = -v_y * d / l / (1.0 - r * turning)
+    phi = math.atan2(v_y, v_x)
+    x = v_x * PERIOD * np.arange(30)
+    rows = columns(phi=[phi] * 30, finger_x=x, psi=math.pi / 2.0 + turning * x)
+
+    assert figures_of(rows, l, lever=r).d_range == pytest.approx((d, d))
+    straight = -l / math.tan(phi)
+    assert figures_of(rows, l).d_range == pytest.approx((straight, straight))  # of the pole
+    without = ({**row, 'psi': math.nan} for row in rows)
+    assert figures_of(without, l, lever=r).d_range == pytest.approx((straight, straight))
+    assert straight < 0.9 * d
 
 
 def test_settling_counts_steps_not_states():

@@ -81,7 +81,7 @@ def test_other_finger_has_another_object():
     parameters = {'active_sensing': {'disk_radius': 0.03}, 'left/sim_plant': PLANT}
     assert pushed_object(parameters, '').l == 0.03
     assert pushed_object(parameters, '/left').l == 0.02375
-    assert pushed_object(parameters, '/right') == (None, None, '')
+    assert pushed_object(parameters, '/right')[:3] == (None, None, '')
 
 
 def test_edge_that_nobody_told_of_leaves_l_open_and_that_is_said():
@@ -116,4 +116,19 @@ def test_simulator_is_right_and_another_l_of_active_sensing_is_said(sensing, sai
 )
 def test_simulator_and_active_sensing_agree_if_an_edge_may_have_that_l(sensing):
     found = pushed_object({'sim_plant': PLANT, 'active_sensing': sensing}, '')
-    assert found == (BLOCK, 0.02375, '')
+    assert found[:3] == (BLOCK, 0.02375, '')
+
+
+@pytest.mark.parametrize(
+    ('parameters', 'lever'),
+    [
+        ({}, 0.0135),
+        ({'sim_plant': {'finger_radius': 0.02, 'commanded_point': 'centre'}}, 0.02),
+        ({'mujoco_plant': {'finger_radius': 0.02, 'commanded_point': 'pole'}}, 0.0),
+        ({'active_sensing': {'finger_radius': 0.01, 'commanded_point': 'contact'}}, 0.0),
+        ({'active_sensing': {'finger_radius': 0.01}}, 0.01),
+        ({'active_sensing': {'finger_radius': 'thin'}}, 0.0135),
+    ],
+)
+def test_lever_is_from_the_commanded_point_to_the_contact(parameters, lever):
+    assert pushed_object(parameters, '').lever == lever
