@@ -29,7 +29,7 @@ DEGREES, MILLIMETRES, SECONDS = 180.0 / math.pi, 1e3, 1.0
 LENGTHS = ('v_x', 'v_x_true', 'd', 'd_lower', 'd_upper', 'd_least', 'd_most', 'd_true')
 SERIES = {
     **dict.fromkeys(('theta', 'theta_desired'), (DEGREES, 0.0, 3)),
-    'phi': (DEGREES, -90.0, 3),
+    **dict.fromkeys(('phi', 'psi'), (DEGREES, -90.0, 3)),
     **dict.fromkeys(LENGTHS, (MILLIMETRES, 0.0, 4)),  # and lengths a second
     **dict.fromkeys(('silence', 'interval'), (SECONDS, 0.0, 4)),
 }

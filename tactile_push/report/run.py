@@ -41,6 +41,7 @@ SOURCES = {
     'theta': ((CONTROLLER_STATE, 'theta'), (CONTACT, 'yaw'), (TRUE_STATE, 'theta')),
     'theta_desired': ((CONTROLLER_STATE, 'theta_desired'),),
     'phi': ((CONTROLLER_STATE, 'phi'), (TRUE_STATE, 'phi')),
+    'psi': ((CONTROLLER_STATE, 'psi'),),
     'v_x': ((CONTROLLER_STATE, 'v_x'),),
     'v_x_true': ((TRUE_STATE, 'v_x'),),
     **{d: ((SENSING_STATE, d),) for d in ('d', 'd_lower', 'd_upper', 'd_least', 'd_most')},

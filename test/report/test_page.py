@@ -105,6 +105,13 @@ def test_values_that_are_no_numbers_become_null():
     assert data['series']['silence']['values'] == [None, None, None, 1.0]
 
 
+def test_turn_of_the_tip_is_shown_from_straight_ahead():
+    series = {'psi': Series(np.arange(2.0), np.radians([90.0, 60.0]))}
+    data = data_of(report_html(make_run(series=series)))
+    assert data['series']['psi']['values'] == [0.0, -30.0]
+    assert data['frames']['psi'][0] == 0.0
+
+
 def test_view_shows_the_last_value_and_none_that_is_old():
     series = {'theta': Series(np.array([1.0, 2.0]), np.radians([10.0, 20.0]))}
     frames = data_of(report_html(make_run(duration=10.0, series=series)))['frames']
@@ -190,7 +197,7 @@ def test_page_has_a_bounded_size_and_a_bounded_number_of_points(duration):
     fast = np.linspace(0.0, duration, int(duration) * 100 + 1)
     noise = np.random.default_rng(1).normal(size=len(fast))
     names = ('theta', 'theta_desired', 'phi', 'v_x', 'v_x_true', 'd', 'd_lower', 'd_upper')
-    names += ('d_least', 'd_most')
+    names += ('d_least', 'd_most', 'psi')
     names += ('d_true', 'silence', 'interval', 'object_x', 'object_y', 'object_angle', 'finger_x')
     run = make_run(duration=duration, series={name: Series(fast, noise) for name in names})
     text = report_html(run)

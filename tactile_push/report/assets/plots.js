@@ -22,6 +22,9 @@ const PANELS = [
     ['v_x_true', 'finger', 'orange', { width: 2.5 }],
     ['v_x', 'commanded', 'blue', { width: 1.5, shape: 'hv' }],
   ] },
+  { title: 'tip [°]', of: 'tip ', unit: '°', digits: 1, lines: [
+    ['psi', 'ψ − 90°', 'blue', { width: 1.5 }],
+  ] },
   { title: 'd [mm]', of: 'd ', unit: ' mm', digits: 2, seen: ['d', 'd_true'], lines: [
     ['d_least', 'guaranteed from', 'blue', { width: 0 }],
     ['d_most', 'guaranteed to', 'blue', { width: 0 }, 'guaranteed'],
