@@ -18,6 +18,7 @@ SHORT = [
     ('push_controller refused', ('domain of no number', 'no folder', 'closed output')),
     ('sim_plant --help', ('output that nobody reads', 'locale C', 'HOME that is a file')),
     ('bag_recorder refused', ('log that is not writable', 'warnings are errors', 'no PATH')),
+    ('bag_player refused', ('log of no number',)),
 ]
 
 

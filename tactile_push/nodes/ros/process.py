@@ -46,8 +46,8 @@ def run(node_class: type[Node]) -> int:
     for option, file in pairwise(sys.argv):
         if option == '--params-file' and is_named_pipe(file):  # rcl would wait
             return _refuse(node_class, f'{file}: expected a file, got a named pipe')
-    set_logger_level('rcl', LoggingSeverity.FATAL)  # it logs what it also throws
     try:
+        set_logger_level('rcl', LoggingSeverity.FATAL)  # it logs what it also throws
         foreign = remove_ros_args(sys.argv)[1:]
         args = [*sys.argv, *log_arguments(node_class.NAME)]
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
