@@ -91,11 +91,29 @@ def ignore_warnings_that_end() -> None:
         warnings.simplefilter('ignore')
 
 
-def complain(who: str, words: object) -> None:
-    """Print a line on standard error.
+def one_line(text: str) -> str:
+    """Write text so that it breaks no line and gives a terminal no orders.
 
-    Characters that would begin another line, or command the terminal, are written by their numbers:
-    names of files, topics and parameters may have them. If nobody can hear it, nothing is said.
+    Names of files, topics and parameters may do either.
+
+    Parameters
+    ----------
+    text : str
+        Words that somebody else chose.
+
+    Returns
+    -------
+    str
+        The text, with escapes as in Python for what is not printable.
+    """
+    return ''.join(
+        letter if letter.isprintable() else letter.encode('unicode_escape').decode()
+        for letter in text
+    )
+
+
+def complain(who: str, words: object) -> None:
+    """Print a line on standard error; if nobody can hear it, nothing is said.
 
     Parameters
     ----------
@@ -104,11 +122,8 @@ def complain(who: str, words: object) -> None:
     words : object
         What is wrong, or a warning.
     """
-    text = ''.join(
-        one if one.isprintable() else one.encode('unicode_escape').decode() for one in str(words)
-    )
     with suppress(OSError):
-        print(f'{who}: {text}', file=sys.stderr, flush=True)
+        print(f'{who}: {one_line(str(words))}', file=sys.stderr, flush=True)
 
 
 def is_nowhere(who: str) -> bool:

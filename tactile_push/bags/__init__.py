@@ -7,8 +7,7 @@ Nothing here needs ROS but `tactile_push.recording.recorder`, which is therefore
 
 from tactile_push.bags.definitions import schema_text
 from tactile_push.bags.reader import BagError, BagReader, Message
-from tactile_push.bags.sources import one_line
 from tactile_push.bags.topic import Topic
 from tactile_push.bags.writer import BagWriter
 
-__all__ = ['BagError', 'BagReader', 'BagWriter', 'Message', 'Topic', 'one_line', 'schema_text']
+__all__ = ['BagError', 'BagReader', 'BagWriter', 'Message', 'Topic', 'schema_text']

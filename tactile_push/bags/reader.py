@@ -28,8 +28,9 @@ from tactile_push.bags.mcap_file import McapFile, Message
 from tactile_push.bags.mcap_records import DamageError
 from tactile_push.bags.merge import Batch, in_order
 from tactile_push.bags.qos import read_profiles
-from tactile_push.bags.sources import BagError, one_line
+from tactile_push.bags.sources import BagError
 from tactile_push.bags.topic import Topic
+from tactile_push.streams import one_line
 
 # Longest message of a type without fields: the encapsulation header, a byte, padding [bytes].
 EMPTY_MESSAGE = 8

@@ -8,30 +8,13 @@ from typing import IO, Protocol
 
 import zstandard
 
+from tactile_push.streams import one_line
+
 # How much is decompressed at once on the way to a place further on [bytes]; picked.
 _STEP = 1 << 20
 
 # zstd's own bound on what a frame may demand for its history [bytes].
 _LARGEST_WINDOW = 1 << 27
-
-
-def one_line(text: str) -> str:
-    """Write text from a bag so that it breaks no line and gives a terminal no orders.
-
-    Parameters
-    ----------
-    text : str
-        Names and values that somebody else chose.
-
-    Returns
-    -------
-    str
-        The text, with escapes as in Python for what is not printable.
-    """
-    return ''.join(
-        letter if letter.isprintable() else letter.encode('unicode_escape').decode()
-        for letter in text
-    )
 
 
 class BagError(Exception):

@@ -123,14 +123,13 @@ def _topic_as_json(result: 'TopicDiff') -> dict[str, Any]:
 
 
 def _print(options: argparse.Namespace, results: 'Sequence[TopicDiff]') -> None:
-    from rich.markup import escape
     from rich.table import Table
 
-    from tactile_push.cli.output import wide_console
+    from tactile_push.cli.output import shown, wide_console
 
     console = wide_console()
     console.print(
-        f'A: {escape(str(options.a))}\nB: {escape(str(options.b))}', highlight=False, soft_wrap=True
+        f'A: {shown(str(options.a))}\nB: {shown(str(options.b))}', highlight=False, soft_wrap=True
     )
     overview = Table()
     for heading in ('topic', 'messages in A', 'in B', 'compared', 'only in A', 'only in B'):
@@ -142,7 +141,7 @@ def _print(options: argparse.Namespace, results: 'Sequence[TopicDiff]') -> None:
         numbers = (*result.counts, result.compared, result.only_a, result.only_b)
         verdict = '[green]same' if result.same else '[red]different'
         cells = [str(number) for number in (*numbers, result.different)]
-        overview.add_row(escape(result.name), *cells, verdict)
+        overview.add_row(shown(result.name), *cells, verdict)
 
         for bag, key in (('A', result.first_only_a), ('B', result.first_only_b)):
             if key is not None:
@@ -156,14 +155,15 @@ def _print(options: argparse.Namespace, results: 'Sequence[TopicDiff]') -> None:
     if details.row_count:
         console.print(details)
     for remark in remarks:
-        console.print(escape(remark), highlight=False, soft_wrap=True)
+        console.print(shown(remark), highlight=False, soft_wrap=True)
     different = sum(not result.same for result in results)
     console.print(f'{different} of {len(results)} topics are different', highlight=False)
 
 
 def _details(results: 'Sequence[TopicDiff]') -> 'Table':
-    from rich.markup import escape
     from rich.table import Table
+
+    from tactile_push.cli.output import shown
 
     table = Table()
     for heading in ('field', 'messages', 'first at', 'A', 'B', 'largest', 'at'):
@@ -172,15 +172,15 @@ def _details(results: 'Sequence[TopicDiff]') -> 'Table':
     for result in results:
         if result.fields:
             table.add_section()
-            table.add_row(f'[bold]{escape(result.name)}')
+            table.add_row(f'[bold]{shown(result.name)}')
         for name, found in result.fields.items():
             sized = math.isfinite(found.largest.distance)
             table.add_row(
-                escape(name),
+                shown(name),
                 str(found.messages),
                 _at(result, found.first.key),
-                escape(_short(found.first.a)),
-                escape(_short(found.first.b)),
+                shown(_short(found.first.a)),
+                shown(_short(found.first.b)),
                 f'{found.largest.distance:.6g}' if sized else '',
                 _at(result, found.largest.key),
             )

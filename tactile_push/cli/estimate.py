@@ -85,13 +85,13 @@ def _as_json(result: 'ObjectFigures') -> dict[str, Any]:
 
 
 def _print(results: 'list[ObjectFigures]') -> None:
-    from tactile_push.cli.output import wide_console
+    from tactile_push.cli.output import shown, wide_console
     from tactile_push.report.outcome import outcome_table
 
     console = wide_console()
     for result in results:
         runs = {'this bag': (_rows(result), result.paper)}
-        console.print(outcome_table(runs, title=_node(result)))
+        console.print(outcome_table(runs, title=shown(_node(result))))
         for one in result.contradictions:
             end = '' if one.ended else ', to the end of the bag'
             console.print(

@@ -64,30 +64,30 @@ def _print(info: 'BagInfo') -> None:
     from rich.filesize import decimal
     from rich.table import Table
 
-    from tactile_push.cli.output import wide_console
+    from tactile_push.cli.output import shown, wide_console
     from tactile_push.report.outcome import fixed
 
     console = wide_console()
     head = Table.grid(padding=(0, 2))
-    head.add_row('bag', _escape(str(info.path)))
+    head.add_row('bag', shown(str(info.path)))
     for file in info.files:
         compression = f', compression: {file.compression}' if file.compression else ''
-        head.add_row('file', _escape(f'{file.path.name}, {decimal(file.size)}{compression}'))
+        head.add_row('file', shown(f'{file.path.name}, {decimal(file.size)}{compression}'))
     head.add_row('start', _start(info))
     head.add_row('duration', f'{info.duration:.3f} s')
     head.add_row('messages', str(info.messages))
-    head.add_row('tactile_push', _escape(info.version or 'version not recorded'))
+    head.add_row('tactile_push', shown(info.version or 'version not recorded'))
     console.print(head, highlight=False)
 
     topics = Table()
     for heading in ('topic', 'type'):
         topics.add_column(heading, no_wrap=True)
     for heading in ('messages', 'rate [Hz]', 'largest gap [s]', 'at [s]', 'out of order'):
-        topics.add_column(_escape(heading), justify='right')
+        topics.add_column(shown(heading), justify='right')
     for topic in info.topics:
         topics.add_row(
-            _escape(topic.name),
-            _escape(topic.type_name),
+            shown(topic.name),
+            shown(topic.type_name),
             str(topic.messages),
             *(
                 '' if value is None else fixed(value, digits)
@@ -100,19 +100,20 @@ def _print(info: 'BagInfo') -> None:
         _print_push(console, namespace, figures)
     _print_parameters(console, info)
     for remark in info.remarks:
-        console.print(_escape(remark), highlight=False)
+        console.print(shown(remark), highlight=False)
 
 
 def _print_push(console: 'Console', namespace: str, push: 'PushFigures') -> None:
 
+    from tactile_push.cli.output import shown
     from tactile_push.report.outcome import outcome_table, push_rows
 
     runs = {'this bag': (push_rows(push), push.paper)}
-    console.print(outcome_table(runs, title=f'{_escape(namespace)}/{PUSH_CONTROLLER}'))
+    console.print(outcome_table(runs, title=f'{shown(namespace)}/{PUSH_CONTROLLER}'))
     for stop in push.stops:
         end = '' if stop.ended else ', to the end of the bag'
         console.print(
-            f'stopped at {stop.at:.3f} s for {stop.duration:.3f} s{end}: {_escape(stop.reason)}',
+            f'stopped at {stop.at:.3f} s for {stop.duration:.3f} s{end}: {shown(stop.reason)}',
             highlight=False,
         )
     if push.missing:
@@ -122,24 +123,17 @@ def _print_push(console: 'Console', namespace: str, push: 'PushFigures') -> None
 def _print_parameters(console: 'Console', info: 'BagInfo') -> None:
     from rich.table import Table
 
+    from tactile_push.cli.output import shown
+
     if not info.parameters:
         console.print('parameters: not recorded')
         return
     for node, parameters in sorted(info.parameters.items()):
         table = Table.grid(padding=(0, 2))
         for name, value in sorted(parameters.items()):
-            table.add_row('', _escape(name), _escape(str(value)))
-        console.print(f'parameters of /{_escape(node)}', highlight=False)
+            table.add_row('', shown(name), shown(str(value)))
+        console.print(f'parameters of /{shown(node)}', highlight=False)
         console.print(table, highlight=False)
-
-
-def _escape(text: str) -> str:
-    """Return text from a bag for a table that takes markup."""
-    from rich.markup import escape
-
-    from tactile_push.bags import one_line
-
-    return escape(one_line(text))
 
 
 def _start(info: 'BagInfo') -> str:

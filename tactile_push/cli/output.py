@@ -11,12 +11,13 @@ from pathlib import Path
 from typing import Any
 
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import Progress
 
 from tactile_push.bags import BagError, BagReader
 from tactile_push.bags.disk import write_whole
 from tactile_push.cli.arguments import Refused
-from tactile_push.streams import complain
+from tactile_push.streams import complain, one_line
 
 WIDTH_OF_FILES = 160  # columns, where the output is no terminal
 
@@ -32,6 +33,11 @@ class OutputConsole(Console):
 def wide_console() -> Console:
     """Return a console for tables: as wide as the terminal or, where there is none, wide enough."""
     return OutputConsole(width=None if sys.stdout.isatty() else WIDTH_OF_FILES)
+
+
+def shown(text: str) -> str:
+    """Return words that somebody else chose, for a console that takes markup."""
+    return escape(one_line(text))
 
 
 def warner(command: str) -> Callable[[str], None]:

@@ -92,11 +92,11 @@ def _why_not(comparison: 'Comparison') -> str:
 def _print(comparisons: 'list[Comparison]') -> None:
     from rich.table import Table
 
-    from tactile_push.cli.output import bounded, wide_console
+    from tactile_push.cli.output import bounded, shown, wide_console
 
     console = wide_console()
     for comparison in comparisons:
-        table = Table(show_header=False, title=comparison.finger or None)
+        table = Table(show_header=False, title=shown(comparison.finger) or None)
 
         def row(label: str, value: object, table: Table = table) -> None:
             table.add_row(label, str(value))

@@ -185,3 +185,14 @@ def test_command_reads_on_with_a_warning_where_a_bag_is_cut_off(bags, diff, tmp_
     for line in err.splitlines():
         assert line.startswith('tactile_push diff: warning: ')
     assert err
+
+
+def test_names_in_a_bag_do_not_move_the_terminal(tmp_path, command):
+    one, other = (
+        write_bag(tmp_path / name, {'/a\x1b[2J\nb': clocks(1, time)})
+        for name, time in (('one', 2), ('other', 3))
+    )
+    status, out, _ = command('diff', one, other)
+    assert status == 1
+    assert r'/a\x1b[2J\nb' in out
+    assert all(letter.isprintable() for letter in out.replace('\n', ''))
