@@ -13,6 +13,7 @@ from tactile_push.tactile.jumps import JUMP_TOLERANCE, MAX_THETA_RATE
 from tactile_push.tactile.planar_finger import FingerPose, OutOfReachError, PlanarFinger
 from tactile_push.tactile.reading import NO_CONTACT, Reading
 from tactile_push.tactile.reading_state import reading_values
+from tactile_push.tactile.wrench import WrenchContact, angle_noise, contact_of_wrench
 
 __all__ = [
     'JUMP_TOLERANCE',
@@ -26,7 +27,10 @@ __all__ = [
     'PlanarFinger',
     'Reading',
     'ReadingRejectedError',
+    'WrenchContact',
+    'angle_noise',
     'contact_of_reading',
+    'contact_of_wrench',
     'reading_of_contact',
     'reading_values',
 ]
