@@ -71,7 +71,7 @@ def contact_of_wrench(
     Raises
     ------
     ValueError
-        If a number is not finite, the radius not positive, or the force hardly one, or beyond all measure.
+        If a number is not finite, the radius not positive, or the force out of all proportion.
     """
     f, p = np.asarray(force, float), np.asarray(centre, float)
     m = np.asarray(moment, float) - np.cross(p, f)

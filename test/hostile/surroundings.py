@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-NOWHERE = '/nowhere/at/all'
+NOWHERE = '/dev/null/at/all'  # where nobody, not even root, can make a folder
 NOT_WRITABLE = '/proc/self'  # for root too
 NO_CACHE = {'XDG_CACHE_HOME': NOT_WRITABLE}
 GIGABYTE = 10**9
