@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Keeps the tests' messages on this machine, as the nodes do; says at the end what was skipped."""
+"""Keeps the tests' messages on this machine, begins with the longest, says what was skipped."""
 
 import os
 import re
@@ -30,6 +30,11 @@ def pytest_make_collect_report(collector):
         report.outcome = 'skipped'
         report.longrepr = (str(collector.path), 0, f"could not import '{missing[1]}'")
     return report
+
+
+def pytest_collection_modifyitems(items):
+    """Begin with the longest tests, so that no process is left with one at the end."""
+    items.sort(key=lambda item: item.get_closest_marker('first') is None)
 
 
 def remedy(reason):

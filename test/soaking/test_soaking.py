@@ -165,6 +165,7 @@ class Clumsy(Soak):
         return outcome
 
 
+@pytest.mark.first
 def test_lost_object_is_put_back_and_the_run_goes_on():
     report = Clumsy(0.035, 1).run()
     assert report.complaints() == []

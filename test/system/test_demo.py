@@ -23,6 +23,7 @@ from tactile_push.replay import replay
 COMMAND = [sys.executable, '-m', 'tactile_push.cli', 'demo', '--json']
 
 
+@pytest.mark.first
 def test_demo_settles_both_rigs_and_leaves_a_picture_and_bags(tmp_path: Path):
     out = tmp_path / 'out'
     run = subprocess.run([*COMMAND, '-o', str(out)], capture_output=True, text=True, timeout=180)
