@@ -143,12 +143,11 @@ def world(nodes: NodeProcesses, observer: Observer) -> World:
 def test_implausible_contact_stops_the_finger_and_plausible_ones_let_it_go_on(
     world: World, rotation: tuple[float, float, float]
 ):
+    # That it is the next tick at which the finger stops is for the tests without a graph, in which
+    # nothing lies between a contact and its arrival.
     world.start()
-    said = len(world.states)
     world.contact_turned(*rotation, world.now().to_msg())
     world.wait_for_state('stopped: implausible contact')
-    pushed = [m for m in world.states[said:] if field(m, 'state') == STATES.index('pushing')]
-    assert len(pushed) <= 1  # the tick that was under way
     world.wait_for_state('pushing')
     world.check_that_it_resumes_without_a_kick()
 

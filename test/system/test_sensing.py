@@ -220,15 +220,14 @@ def test_sensor_whose_clock_is_ahead_is_heard_as_the_controller_hears_it(
     nodes.start('contact_geometry', simulated, **block, arguments=in_time)
     pushing = float(STATES.index(PUSHING))
 
-    def ticks() -> list[JointState]:
-        first = [k for k, s in enumerate(rig.states) if field(s, 'state') == pushing]
-        return rig.states[first[0] :][:67] if first else []
+    def pushes() -> list[JointState]:
+        return [s for s in rig.states if field(s, 'state') == pushing]
 
-    observer.wait_for(lambda: len(ticks()) == 67, '67 control periods')
-    stamps = {seconds(s) for s in ticks() if field(s, 'state') == pushing}
+    # This process passes the contacts on: where it is held up the controller waits for one.
+    observer.wait_for(lambda: len(pushes()) >= 63, '63 control periods in which the finger pushes')
+    stamps = {seconds(s) for s in pushes()}
     observer.wait_for(lambda: seconds(sensing.states[-1]) >= max(stamps), 'what they tell')
     known = {seconds(s) for s in sensing.states if math.isfinite(field(s, 'd'))}
-    assert len(stamps) >= 63
     assert stamps <= known
     assert np.median([field(s, 'age') for s in sensing.states if seconds(s) in stamps]) < 0.0
 
