@@ -45,6 +45,8 @@ SCREAMS = ('Traceback', 'Exception ignored', 'Fatal Python error', 'terminate ca
 def run(words: Sequence[str | Path], surroundings: Surroundings, folder: Path) -> Ended:
     """Run a program and return how it ended."""
     variables = dict(os.environ)
+    # A relative one, as of this walk, keeps Python from starting where there is no folder.
+    variables.pop('PYTHONPATH', None)
     for name, value in surroundings.variables.items():
         if value is None:
             variables.pop(name, None)
