@@ -41,7 +41,9 @@ def test_bag_of_an_eventful_run_replays_to_the_bit(
     nodes.start('sim_plant', {**device, 'sensor_noise': 0.002}, config=config_file('block.yaml'))
     nodes.start('sensor_driver', device)
     nodes.start('contact_geometry', config=config_file('block.yaml'))
-    nodes.start('push_controller', config=config_file('block.yaml'))
+    # On a loaded machine it would rest until somebody resumed it.
+    late = {'max_ticks_lost': 100}
+    nodes.start('push_controller', late, config=config_file('block.yaml'))
     nodes.start('active_sensing', config=config_file('block.yaml'))
     wait_for_ticks(5, PUSHING)
     observer.wait_for(lambda: sensed, 'the object to be sensed')
