@@ -7,8 +7,6 @@ from pathlib import Path
 
 from geometry_msgs.msg import PoseStamped
 from lifecycle_msgs.msg import Transition
-from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
-from rcl_interfaces.srv import SetParameters
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
@@ -41,7 +39,7 @@ def test_bag_of_an_eventful_run_replays_to_the_bit(
     nodes.start('sim_plant', {**device, 'sensor_noise': 0.002}, config=config_file('block.yaml'))
     nodes.start('sensor_driver', device)
     nodes.start('contact_geometry', config=config_file('block.yaml'))
-    # On a loaded machine it would rest until somebody resumed it.
+    # On a loaded machine it would rest until somebody resumed it, before its time comes.
     late = {'max_ticks_lost': 100}
     nodes.start('push_controller', late, config=config_file('block.yaml'))
     nodes.start('active_sensing', config=config_file('block.yaml'))
@@ -66,14 +64,12 @@ def test_bag_of_an_eventful_run_replays_to_the_bit(
     wait_for_ticks(3, STOPPED)
     nodes.start('sensor_driver', device)
     wait_for_ticks(10, PUSHING)
-    value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=2.0)
-    request = SetParameters.Request(parameters=[Parameter(name='kd', value=value)])
-    answer = observer.call(SetParameters, 'push_controller/set_parameters', request)
-    assert answer.results[0].successful
+    assert observer.set_parameters('push_controller', kd=2.0)[0].successful
     wait_for_ticks(10, PUSHING)
     assert observer.change_state('push_controller', Transition.TRANSITION_DEACTIVATE)
     assert observer.change_state('push_controller', Transition.TRANSITION_ACTIVATE)
     wait_for_ticks(10, PUSHING)
+    assert observer.set_parameters('push_controller', max_ticks_lost=3)[0].successful
     controller = nodes.running['push_controller']
     controller.send_signal(signal.SIGSTOP)
     ticks = len(states)
