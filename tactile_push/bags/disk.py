@@ -3,6 +3,7 @@
 """Files that a thread writes, so that whoever fills them does not wait for the disk."""
 
 import contextlib
+import errno
 import os
 import threading
 from collections.abc import Callable
@@ -137,13 +138,14 @@ class DiskFile:
 def write_whole(path: Path, text: str) -> None:
     """Write a file whole or not at all, whatever happens meanwhile, and put it onto the disk.
 
-    What is no file, such as a terminal or a pipe, is written to directly. An OSError has the name
-    of the file.
+    What is no file, such as a terminal or a pipe, is written to directly. A pipe that nobody reads
+    is refused, because opening it would wait for ever. An OSError has the name of the file.
     """
     is_no_file = path.exists() and not path.is_file()
     part = path if is_no_file else path.with_name(f'.{path.name}.{os.getpid()}')
     try:
-        with part.open('w', encoding='utf-8', errors='replace') as stream:
+        opener = _without_waiting if is_no_file else None
+        with open(part, 'w', encoding='utf-8', errors='replace', opener=opener) as stream:
             stream.write(text)
             stream.flush()
             if not is_no_file:
@@ -153,8 +155,17 @@ def write_whole(path: Path, text: str) -> None:
         if not is_no_file:
             with contextlib.suppress(OSError):
                 part.unlink(missing_ok=True)
-        raise OSError(error.errno, error.strerror, str(path)) from None
+        unread = is_no_file and error.errno == errno.ENXIO
+        words = 'nobody reads this pipe' if unread else error.strerror
+        raise OSError(error.errno, words, str(path)) from None
     sync_directory(path.parent)
+
+
+def _without_waiting(path: str, flags: int) -> int:
+    """Open what is no file; ENXIO if it is a pipe that nobody reads."""
+    descriptor = os.open(path, flags | getattr(os, 'O_NONBLOCK', 0))
+    os.set_blocking(descriptor, True)
+    return descriptor
 
 
 def sync_directory(path: Path) -> None:

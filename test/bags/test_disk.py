@@ -168,3 +168,15 @@ def test_whole_file_or_none(tmp_path, monkeypatch):
     with pytest.raises(OSError, match='No space'):
         write_whole(tmp_path / 'other.yaml', 'version: 9\n')
     assert [entry.name for entry in tmp_path.iterdir()] == ['metadata.yaml']
+
+
+def test_pipe_takes_a_file_if_somebody_reads_it_and_is_refused_if_not(tmp_path):
+    pipe = tmp_path / 'pipe'
+    os.mkfifo(pipe)
+    with pytest.raises(OSError, match='nobody reads this pipe') as caught:
+        write_whole(pipe, 'all of it\n')
+    assert caught.value.filename == str(pipe)
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    write_whole(pipe, 'all of it\n')
+    assert os.read(reader, 100) == b'all of it\n'
+    os.close(reader)
