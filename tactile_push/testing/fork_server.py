@@ -137,7 +137,8 @@ def _watch_a_copy(reported: socket.socket) -> None:
     copy = os.fork()
     if copy:
         _, status = os.waitpid(copy, 0)
-        reported.send(b'status %d' % os.waitstatus_to_exitcode(status))
+        with contextlib.suppress(BrokenPipeError):  # whoever asked for the node may be gone
+            reported.send(b'status %d' % os.waitstatus_to_exitcode(status))
         os._exit(0)
 
 

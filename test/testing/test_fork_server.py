@@ -119,3 +119,16 @@ def test_server_that_has_ended_is_said(log, environment, monkeypatch):
     monkeypatch.setattr(fork_server, '_server', lambda: (ours, None))
     with ours, pytest.raises(RuntimeError, match='the process that starts the nodes has ended'):
         fork_node('contact_geometry', SPIN, environment, log)
+
+
+def test_end_of_a_node_that_nobody_waits_for_is_told_to_nobody():
+    program = (
+        'import os\n'
+        'from tactile_push.testing.fork_server import fork_node\n'
+        "with open(os.devnull, 'ab') as log:\n"
+        f"    node = fork_node('contact_geometry', {SPIN}, dict(os.environ), log)\n"
+        'node._watcher.close()\n'
+        'os.kill(node.pid, 9)\n'
+    )
+    done = subprocess.run([sys.executable, '-c', program], capture_output=True, timeout=PATIENCE)
+    assert (done.returncode, done.stderr) == (0, b'')
