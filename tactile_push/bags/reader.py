@@ -166,7 +166,7 @@ class BagReader:
             seconds = (message.log_time - self.start_time) * 1e-9
             raise BagError(
                 f'{self.path}: the message of {topic.name} at {seconds:.6f} s does not decode '
-                f'as {topic.type_name}: {_one_line(error)}'
+                f'as {topic.type_name}: {_in_words(error)}'
             ) from None
 
     def __enter__(self) -> 'BagReader':
@@ -187,7 +187,7 @@ class BagReader:
         except FileNotFoundError:
             return BagMetadata()
         except (OSError, ValueError) as error:
-            self.warn(f'{self.path / METADATA}: not used: {_one_line(error)}')
+            self.warn(f'{self.path / METADATA}: not used: {_in_words(error)}')
             return BagMetadata()
 
     def _open_files(self, paths: list[Path]) -> list[McapFile]:
@@ -322,5 +322,5 @@ def _another_kind(topic: Topic, type_name: str, text: str, encodings: tuple[str,
     return ''
 
 
-def _one_line(error: Exception) -> str:
+def _in_words(error: Exception) -> str:
     return ' '.join(f'{type(error).__name__}: {error}'.split())

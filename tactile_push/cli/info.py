@@ -104,7 +104,6 @@ def _print(info: 'BagInfo') -> None:
 
 
 def _print_push(console: 'Console', namespace: str, push: 'PushFigures') -> None:
-
     from tactile_push.cli.output import shown
     from tactile_push.report.outcome import outcome_table, push_rows
 

@@ -21,6 +21,7 @@ Statistics 9 (6), 1135-1151, 1981.
 import math
 from typing import NamedTuple
 
+from tactile_push.estimation.mixture import REACH
 from tactile_push.estimation.unknowns import LOG_C, THETA, UNKNOWNS, D, L, R
 from tactile_push.mechanics.compiled import Array, equation
 from tactile_push.mechanics.motion import motion_cone
@@ -28,7 +29,6 @@ from tactile_push.mechanics.motion import motion_cone
 # Columns of the points' ends, after theta and d.
 SLIP, BEYOND_LEFT, BEYOND_RIGHT = 2, 3, 4  # [m]
 COLUMNS = 5
-FAR = 4.5  # deviations from 0 beyond which a number's sign is certain
 
 
 class Moved(NamedTuple):
@@ -85,7 +85,7 @@ def positive_part(mean: float, variance: float) -> tuple[float, float, float]:
         The probability, and mean and variance of max(0, x).
     """
     deviation = math.sqrt(variance)
-    if abs(mean) >= FAR * deviation:
+    if abs(mean) >= REACH * deviation:
         return (1.0, mean, variance) if mean > 0.0 else (0.0, 0.0, 0.0)
     z = mean / deviation
     share = math.erfc(-z / math.sqrt(2.0)) / 2.0
@@ -120,8 +120,9 @@ def slip_as_a_gaussian_does(
         left_square += weight * (ends[i, BEYOND_LEFT] - left) ** 2
         right_square += weight * (ends[i, BEYOND_RIGHT] - right) ** 2
         slip_square += weight * (ends[i, SLIP] - moved.slip) ** 2
-    if min(left * left / FAR**2 - left_square, right * right / FAR**2 - right_square) >= 0.0:
-        return moved
+    certain = REACH**2
+    if left * left >= certain * left_square and right * right >= certain * right_square:
+        return moved  # every slip is certain, or certainly none
     left_share, left_mean, left_variance = positive_part(left, left_square)
     right_share, right_mean, right_variance = positive_part(right, right_square)
     slip = right_mean - left_mean

@@ -65,8 +65,10 @@ class Control:
 
         It is empty if they do, if they fell silent, and if there were none.
         """
-        if not self._heard_joints or self._joints.trouble:
-            return self._joints.trouble if self._heard_joints else ''
+        if not self._heard_joints:
+            return ''
+        if trouble := self._joints.trouble:
+            return trouble
         age = self._now - self._located_at
         if abs(age) <= self.push.limits.joint_state_timeout:
             return ''

@@ -28,7 +28,7 @@ SIZES = {
     DISK: {'disk_radius': DISK_RADIUS},
 }
 OUTLINE = {'vertices', 'disk_radius'}  # the parameters of `active_sensing` that tell the object
-CENTRE = POINTS[0]
+AT_CENTRE = POINTS[0]
 ALIKE = 1e-3  # of lengths, in units of themselves
 
 
@@ -46,34 +46,20 @@ class Pushed(NamedTuple):
 def pushed_object(parameters: Mapping[str, Mapping[str, object]], namespace: str) -> Pushed:
     """Return what the finger in a namespace pushed, by the parameters of its nodes."""
     plant, sensing = plant_in(namespace, parameters), node_in(namespace, ACTIVE_SENSING)
-    finger = parameters.get(plant, {}) or parameters.get(sensing, {})
-    return _pushed(parameters, plant, sensing)._replace(lever=_lever(finger))
-
-
-def _lever(finger: Mapping[str, object]) -> float:
-    radius = finger.get('finger_radius')
-    if finger.get('commanded_point', CENTRE) != CENTRE:
-        return 0.0
-    return radius if isinstance(radius, float) and math.isfinite(radius) else FINGER_RADIUS
-
-
-def _pushed(parameters: Mapping[str, Mapping[str, object]], plant: str, sensing: str) -> Pushed:
     pushed, l = plant_object(parameters.get(plant, {}))
     told, possible = _told_object(parameters.get(sensing, {}))
     words = ' or '.join(f'{one * 1e3:g}' for one in possible) + ' mm'
-    if pushed is None:
-        pushed = told
+    remark = ''
     if l is None and len(possible) == 1:
-        return Pushed(pushed, possible[0])
-    if l is None and possible:
-        why = f'l is not known: /{sensing} was not told which edge is pushed, so l is {words}'
-        return Pushed(pushed, None, why)
-    if l is not None and possible and not any(_alike(l, one) for one in possible):
-        why = (
+        l = possible[0]
+    elif l is None and possible:
+        remark = f'l is not known: /{sensing} was not told which edge is pushed, so l is {words}'
+    elif l is not None and possible and not any(_alike(l, one) for one in possible):
+        remark = (
             f'l is {l * 1e3:g} mm by the parameters of /{plant} and {words} by those of /{sensing}'
         )
-        return Pushed(pushed, l, why)
-    return Pushed(pushed, l)
+    lever = _lever(parameters.get(plant, {}) or parameters.get(sensing, {}))
+    return Pushed(told if pushed is None else pushed, l, remark, lever)
 
 
 def plant_in(namespace: str, parameters: Mapping[str, Mapping[str, object]]) -> str:
@@ -97,6 +83,14 @@ def plant_object(plant: Mapping[str, object]) -> tuple[str | None, float | None]
         named if sizes and all(given[name] == sizes[name] for name in given) else OTHER,
         l if isinstance(l, float) and math.isfinite(l) and l > 0.0 else None,
     )
+
+
+def _lever(finger: Mapping[str, object]) -> float:
+    """Return the lever of a finger by the parameters of a node that was told of it [m]."""
+    if finger.get('commanded_point', AT_CENTRE) != AT_CENTRE:
+        return 0.0
+    radius = finger.get('finger_radius')
+    return radius if isinstance(radius, float) and math.isfinite(radius) else FINGER_RADIUS
 
 
 def _told_object(sensing: Mapping[str, object]) -> tuple[str | None, list[float]]:

@@ -133,20 +133,26 @@ def test_nodes_read_by_name(ros, topic, odd):
     assert math.isfinite(tick.finger_x) == (odd in USED or topic == TACTILE)
 
 
-@CASES
-@TOPIC
-def test_replay_reads_by_name(topic, odd, tmp_path):
+def write_bag(path, rounds):
+    """Write a bag with names and positions of both topics, every 50 ms."""
     encode = encoder(JOINT_STATE_TYPE, schema_text(JOINT_STATE_TYPE))
-    with BagWriter(tmp_path / 'bag') as writer:
+    with BagWriter(path) as writer:
         for name in (JOINT_STATES, TACTILE):
             writer.add_topic(f'/{name}', JOINT_STATE_TYPE)
-        for k in range(5):
+        for k, contents in enumerate(rounds):
             at = BEGIN * 10**9 + k * 50_000_000
-            # All is as it should be in the first messages, so that the law ticks on the others.
-            for name, content in messages(topic, odd if k > 1 else whole).items():
+            for name, content in contents.items():
                 fields = joint_state_fields(divmod(at, 10**9), {})
                 fields['name'], fields['position'] = content
                 writer.write(f'/{name}', encode(fields), at, at)
+
+
+@CASES
+@TOPIC
+def test_replay_reads_by_name(topic, odd, tmp_path):
+    # All is as it should be in the first messages, so that the law ticks on the others.
+    rounds = (messages(topic, odd if k > 1 else whole) for k in range(5))
+    write_bag(tmp_path / 'bag', rounds)
     with BagReader(tmp_path / 'bag') as reader:
         (comparison,) = replay(reader, out=tmp_path / 'out')
     joints_known = odd in USED or topic == TACTILE
@@ -164,17 +170,8 @@ def test_replay_reads_by_name(topic, odd, tmp_path):
 
 @pytest.mark.parametrize(('wanted', 'reason'), [(True, FINGER_UNKNOWN), (False, NO_REASON)])
 def test_replay_stops_as_the_node_does_for_joints_of_other_names(wanted, reason, tmp_path):
-    encode = encoder(JOINT_STATE_TYPE, schema_text(JOINT_STATE_TYPE))
-    with BagWriter(tmp_path / 'bag') as writer:
-        for name in (JOINT_STATES, TACTILE):
-            writer.add_topic(f'/{name}', JOINT_STATE_TYPE)
-        for k in range(20):
-            at = BEGIN * 10**9 + k * 50_000_000
-            values = {JOINT_STATES: dict.fromkeys(('l_one', 'l_two'), 0.1)}
-            values[TACTILE] = dict(zip(ANGLES, (0.0, AHEAD - 0.1), strict=True))
-            for name in (JOINT_STATES, TACTILE):
-                fields = joint_state_fields(divmod(at, 10**9), values[name])
-                writer.write(f'/{name}', encode(fields), at, at)
+    others = {JOINT_STATES: (['l_one', 'l_two'], [0.1, 0.1]), TACTILE: (ANGLES, [0.0, AHEAD - 0.1])}
+    write_bag(tmp_path / 'bag', [others] * 20)
     config = tmp_path / 'wanted.yaml'
     config.write_text(
         'contact_geometry: {ros__parameters: {use_joint_states: false}}\n'

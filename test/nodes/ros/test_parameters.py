@@ -11,10 +11,10 @@ import pytest
 rclpy = pytest.importorskip('rclpy')
 
 from rcl_interfaces.msg import ParameterType  # noqa: E402
-from rclpy.context import Context  # noqa: E402
 from rclpy.parameter import Parameter as RosParameter  # noqa: E402
 from rclpy.parameter import parameter_value_to_python  # noqa: E402
 
+from support.params_file import private_context  # noqa: E402
 from tactile_push.nodes.ros.parameters import (  # noqa: E402
     ConfigurationError,
     declare,
@@ -22,7 +22,6 @@ from tactile_push.nodes.ros.parameters import (  # noqa: E402
 )
 from tactile_push.parameters import PARAMETERS, NodeParameters  # noqa: E402
 from tactile_push.parameters.parameter import parameter  # noqa: E402
-from tactile_push.testing.processes import claim_domain  # noqa: E402
 
 
 @dataclasses.dataclass(frozen=True)
@@ -52,12 +51,8 @@ class Changes:
 @pytest.fixture(scope='module')
 def context():
     """Return a private context."""
-    context = Context()
-    domain, lock = claim_domain()
-    rclpy.init(context=context, domain_id=domain)
-    yield context
-    rclpy.shutdown(context=context)
-    lock.close()
+    with private_context() as context:
+        yield context
 
 
 @pytest.fixture
