@@ -198,7 +198,7 @@ class Rig:
     @property
     def reason(self) -> str:
         """Why the controller stopped, one of `tactile_push.control.STOP_REASONS`; '' if not."""
-        return STOP_REASONS[int(field(self.states[-1], 'stop_reason'))]
+        return STOP_REASONS[int(field(self.states[-1], 'stop_reason'))] if self.states else ''
 
     def wait_until_moving(self) -> None:
         """Wait until the finger has moved for a while."""

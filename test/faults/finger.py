@@ -5,6 +5,7 @@
 import math
 import signal
 import time
+from collections.abc import Callable
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
@@ -12,7 +13,7 @@ from lifecycle_msgs.msg import State
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from std_srvs.srv import Trigger
 
-from tactile_push.control import PUSHING, STOP_REASONS
+from tactile_push.control import PUSHING, STOP_REASONS, TICKS_LOST
 from tactile_push.testing import NodeProcesses, Rig, field
 
 from .messages import stamp_of
@@ -87,9 +88,10 @@ class Finger(Rig):
         self.start_node(node, parameters, arguments)
 
     def activate(self) -> None:
-        """Activate the controller once its commands will be heard here."""
+        """Activate the controller once there are contacts and its commands will be heard here."""
         self._desired = -DESIRED  # as the configuration has it
         observer, controller = self.observer, self.name('push_controller')
+        observer.wait_for(lambda: self.contacts, f'contacts of {self.name("finger")}')
         before = observer.publishers(self.name('finger/cmd_vel'))
         observer.reach_state(controller, State.PRIMARY_STATE_INACTIVE)
         observer.wait_for(
@@ -129,9 +131,23 @@ class Finger(Rig):
             raise BrokenPromiseError(f'theta_desired was refused: {answer.reason}')
 
     def push(self, patience: float = 5.0) -> None:
-        """Wait until the finger moves, to the side to which it has to turn the object."""
+        """Wait until the finger moves, to the side to which it has to turn the object.
+
+        A controller that rests because the machine was too busy for it is resumed.
+        """
         self.turn()
-        self.wait_until_moving(patience)
+        moving = self._moving_from_now_on()
+        try:
+            self.observer.wait_for(
+                lambda: moving() or self.reason == TICKS_LOST,
+                f'{self.name("finger")} to move',
+                patience,
+            )
+        except BrokenPromiseError as error:
+            said = self.reason or self.state or 'nothing'
+            raise BrokenPromiseError(f'{error}; the controller said {said}') from None
+        if not moving():
+            self.resume()
 
     def is_in_the_middle(self) -> bool:
         """Return whether the object lies so that the finger can go on for long."""
@@ -140,14 +156,19 @@ class Finger(Rig):
 
     def wait_until_moving(self, patience: float = 5.0) -> float:
         """Wait until the law acts and the finger moves, and give the moment [s]."""
+        moving = self._moving_from_now_on()
+        self.observer.wait_for(moving, f'{self.name("finger")} to move', patience)
+        return self.truth.times[-1]
+
+    def _moving_from_now_on(self) -> Callable[[], bool]:
+        """Return what tells whether the law has acted and the finger has moved since now."""
         seen = len(self.truth)
 
         def moving() -> bool:
             last = [field(m, 'v_x') for m in self.truth[seen:][-5:]]
             return self.state == PUSHING and len(last) == 5 and min(map(abs, last)) > MOVING
 
-        self.observer.wait_for(moving, f'{self.name("finger")} to move', patience)
-        return self.truth.times[-1]
+        return moving
 
     def stopped(
         self, since: float, patience: float = 3.0, *, hold: float = HOLD, command: bool = False
