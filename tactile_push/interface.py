@@ -62,6 +62,7 @@ FINGERTIP = 'fingertip'  # turns with the tip; azimuth and elevation are measure
 
 # Nodes.
 SENSOR_DRIVER = 'sensor_driver'
+WRENCH_SENSOR = 'wrench_sensor'
 CONTACT_GEOMETRY = 'contact_geometry'
 PUSH_CONTROLLER = 'push_controller'
 ACTIVE_SENSING = 'active_sensing'
@@ -73,6 +74,7 @@ BAG_RECORDER = 'bag_recorder'
 BAG_PLAYER = 'bag_player'
 
 # Topics.
+WRENCH = 'wrench'
 TACTILE = 'tactile'
 JOINT_STATES = 'joint_states'
 CONTACT = 'contact'
@@ -90,6 +92,7 @@ DIAGNOSTICS = '/diagnostics'
 PARAMETER_EVENTS = '/parameter_events'
 
 # Services.
+TARE = 'wrench_sensor/tare'
 RESUME = 'push_controller/resume'
 PAUSE, STEP = '~/pause', '~/step'
 
@@ -107,6 +110,7 @@ SILENT, WIDEN, STRAIGHT = WITHOUT_PSI = ('silent', 'widen', 'straight')
 JOINT_STATE_TYPE = 'sensor_msgs/msg/JointState'
 POSE_TYPE = 'geometry_msgs/msg/PoseStamped'
 UNCERTAIN_POSE_TYPE = 'geometry_msgs/msg/PoseWithCovarianceStamped'
+WRENCH_TYPE = 'geometry_msgs/msg/WrenchStamped'
 TWIST_TYPE = 'geometry_msgs/msg/TwistStamped'
 MARKERS_TYPE = 'visualization_msgs/msg/MarkerArray'
 
@@ -115,6 +119,11 @@ NODES = {
     for node in (
         NodeSummary(
             SENSOR_DRIVER, "reads the tactile sensor's sentences from a device", managed=True
+        ),
+        NodeSummary(
+            WRENCH_SENSOR,
+            'finds the contact on a tip that sits on a force/torque sensor',
+            managed=True,
         ),
         NodeSummary(CONTACT_GEOMETRY, 'computes the contact from a reading and the joint angles'),
         NodeSummary(
@@ -151,13 +160,19 @@ def _estimated(name: str, unit: str, words: str) -> tuple[Field, ...]:
 TOPICS = {
     topic.name: topic
     for topic in (
-        Topic(TACTILE, JOINT_STATE_TYPE, (SENSOR_DRIVER,), (CONTACT_GEOMETRY,),
+        Topic(WRENCH, WRENCH_TYPE, ('the sensor',), (WRENCH_SENSOR,),
+            "force and moment on the finger tip in the sensor's frame, at 20 Hz or more",
+        ),
+        Topic(TACTILE, JOINT_STATE_TYPE, (SENSOR_DRIVER, WRENCH_SENSOR), (CONTACT_GEOMETRY,),
             'a reading of the sensor in `fingertip`, stamped when it was read; NaN is no contact '
             'or not measured',
             (
                 Field('azimuth', 'rad', 'azimuth of the contact'),
                 Field('elevation', 'rad', 'elevation of the contact; pi/2 is the pole'),
                 Field('normal_force', 'N', 'normal force, in `effort` instead', array='effort'),
+                Field('tangential_force', 'N',
+                    'force along the surface, in `effort` instead; of `wrench_sensor` alone',
+                    array='effort'),
             ),
         ),
         Topic(JOINT_STATES, JOINT_STATE_TYPE, ('the finger', *PLANTS),
@@ -276,6 +291,12 @@ TOPICS = {
 RECORDED = tuple(name for name, topic in TOPICS.items() if topic.recorded)
 
 SERVICES = (
+    Service(
+        TARE,
+        'std_srvs/srv/Trigger',
+        WRENCH_SENSOR,
+        'takes the present wrench for that of a tip that touches nothing',
+    ),
     Service(
         RESUME,
         'std_srvs/srv/Trigger',

@@ -33,7 +33,7 @@ class SensorDriver(ManagedNode):
         with refusing('device'):
             check_url(self._settings.device)
         none = [math.nan] * 3
-        names = list(TOPICS[TACTILE].field_names)
+        names = list(TOPICS[TACTILE].field_names[:3])  # sentences tell no tangential force
         self._message = JointState(name=names, position=none, velocity=none, effort=none)
         self._readings = 0
         self._unstamped = 0

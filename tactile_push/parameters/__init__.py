@@ -14,9 +14,11 @@ from tactile_push.parameters.parameter import NodeParameters, Parameter
 from tactile_push.parameters.push_controller import PushControllerParameters
 from tactile_push.parameters.sensor_driver import SensorDriverParameters
 from tactile_push.parameters.sim_plant import SimPlantParameters
+from tactile_push.parameters.wrench_sensor import WrenchSensorParameters
 
 PARAMETERS: dict[str, type[NodeParameters]] = {
     interface.SENSOR_DRIVER: SensorDriverParameters,
+    interface.WRENCH_SENSOR: WrenchSensorParameters,
     interface.CONTACT_GEOMETRY: ContactGeometryParameters,
     interface.PUSH_CONTROLLER: PushControllerParameters,
     interface.ACTIVE_SENSING: ActiveSensingParameters,
@@ -41,5 +43,6 @@ __all__ = [
     'PushControllerParameters',
     'SensorDriverParameters',
     'SimPlantParameters',
+    'WrenchSensorParameters',
     'config_file',
 ]

@@ -7,13 +7,14 @@ into a ROS message and `tactile_push.replay.new_bag` into CDR. A field that is n
 default value.
 """
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from tactile_push.interface import FINGER_BASE, FINGER_DISK
+from tactile_push.interface import FINGER_BASE, FINGER_DISK, TACTILE, TOPICS
 from tactile_push.pipeline.orientation import covariance_in_space, quaternion_of_yaw
 from tactile_push.pipeline.stamps import Stamp
 
@@ -27,6 +28,17 @@ def joint_state_fields(stamp: Stamp, values: Mapping[str, float]) -> Fields:
     """Return the fields of a JointState with positions by name."""
     header = _header(stamp, '')
     return {'header': header, 'name': list(values), 'position': list(values.values())}
+
+
+def tactile_fields(stamp: Stamp, values: Mapping[str, float]) -> Fields:
+    """Return the fields of a message of `tactile` with the values of its fields by name."""
+    arrays = {field.name: field.array for field in TOPICS[TACTILE].fields}
+    fields: Fields = {'header': _header(stamp, ''), 'name': list(values)}
+    for array in ('position', 'effort'):
+        fields[array] = [
+            value if arrays[name] == array else math.nan for name, value in values.items()
+        ]
+    return fields
 
 
 def pose_fields(stamp: Stamp, x: float, y: float, yaw: float) -> Fields:

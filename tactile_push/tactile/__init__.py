@@ -14,12 +14,20 @@ from tactile_push.tactile.planar_finger import FingerPose, OutOfReachError, Plan
 from tactile_push.tactile.reading import NO_CONTACT, Reading
 from tactile_push.tactile.reading_state import reading_values
 from tactile_push.tactile.wrench import WrenchContact, angle_noise, contact_of_wrench
+from tactile_push.tactile.wrench_reader import (
+    WRENCH_REFUSALS,
+    TareRefusedError,
+    Touch,
+    WrenchReader,
+    WrenchSensing,
+)
 
 __all__ = [
     'JUMP_TOLERANCE',
     'MAX_THETA_RATE',
     'NO_CONTACT',
     'REFUSALS',
+    'WRENCH_REFUSALS',
     'Contact',
     'ContactFinder',
     'FingerPose',
@@ -27,7 +35,11 @@ __all__ = [
     'PlanarFinger',
     'Reading',
     'ReadingRejectedError',
+    'TareRefusedError',
+    'Touch',
     'WrenchContact',
+    'WrenchReader',
+    'WrenchSensing',
     'angle_noise',
     'contact_of_reading',
     'contact_of_wrench',

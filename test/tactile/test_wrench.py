@@ -8,31 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from support.touches import RADIUS, unit, wrench
 from tactile_push.tactile import angle_noise, contact_of_wrench
 
-RADIUS = 0.0135
 checked = settings(derandomize=True, deadline=None, max_examples=200)
 azimuths, elevations = st.floats(-3.1, 3.1), st.floats(-0.2, 1.57)
 offsets = st.tuples(*[st.floats(-0.05, 0.05)] * 3)
-
-
-def unit(azimuth, elevation):
-    across = math.cos(elevation)
-    return np.array([across * math.cos(azimuth), across * math.sin(azimuth), math.sin(elevation)])
-
-
-def tangents(normal):
-    """Return two unit vectors along the surface."""
-    one = np.cross(normal, [1.0, 0.0, 0.0] if abs(normal[0]) < 0.7 else [0.0, 1.0, 0.0])
-    one /= np.linalg.norm(one)
-    return one, np.cross(normal, one)
-
-
-def wrench(normal, pressing, sideways, torsion, centre):
-    """Return force and moment about the sensor of a contact, by their definition."""
-    one, other = tangents(normal)
-    force = -pressing * normal + sideways[0] * one + sideways[1] * other
-    return force, np.cross(centre + RADIUS * normal, force) + torsion * normal
 
 
 @checked
