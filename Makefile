@@ -55,7 +55,7 @@ lint: $(TEST_READY)
 	$(BIN)/lint-imports
 	$(BIN)/reuse lint --quiet
 
-$(READY): setup.py setup.cfg pyproject.toml
+$(READY): setup.py setup.cfg pyproject.toml tactile_push/interface.py
 	@command -v $(PYTHON) >/dev/null || \
 	  { echo "make: $(PYTHON) not found; expected Python 3.10 to 3.13, set PYTHON=" >&2; exit 2; }
 	@$(PYTHON) -c 'import sys; sys.exit(not (3, 10) <= sys.version_info[:2] <= (3, 13))' || \

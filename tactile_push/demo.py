@@ -12,6 +12,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from tactile_push.bags import BagReader
 from tactile_push.control import PUSHING, STATES
 from tactile_push.figures import plot_history
@@ -23,6 +25,7 @@ from tactile_push.interface import (
     PUSH_CONTROLLER,
     SENSING_STATE,
     SENSOR_DRIVER,
+    SENTENCE,
     SIM_PLANT,
     TRUE_STATE,
 )
@@ -36,6 +39,7 @@ from tactile_push.paper import (
     PaperFigures,
 )
 from tactile_push.parameters import config_file
+from tactile_push.parameters.sensor_kinds import SENSOR_KINDS
 from tactile_push.report.columns import Column, read_tables, topics_of
 from tactile_push.report.merit import PushFigures, known_step, push_figures
 from tactile_push.testing.processes import NodeProcesses
@@ -85,20 +89,23 @@ class DemoError(Exception):
 
 
 def run_demo(
-    out: Path, progress: Callable[[str, int], None], plant: str = SIM_PLANT
+    out: Path,
+    progress: Callable[[str, int], None],
+    plant: str = SIM_PLANT,
+    sensor: str = SENTENCE,
 ) -> dict[str, RigResult]:
     """Run both rigs, record them, draw their history and return the results by rig.
 
     The bags NAME/ and the picture history.png go to the folder `out` and replace those of an
     earlier demonstration. `progress` is told the rig's name and the number of steps done. `plant`
-    is the node that simulates. Raises a `DemoError` if a process ends early or nothing moves on,
-    and an OSError if the folder cannot be written.
+    is the node that simulates, `sensor` one of `SENSOR_KINDS`. Raises a `DemoError` if a process
+    ends early or nothing moves on, and an OSError if the folder cannot be written.
     """
     out.mkdir(parents=True, exist_ok=True)
     results = {}
     panels = {}
     for name, paper in RIGS.items():
-        wall_seconds = _run_rig(plant, name, out / name, partial(progress, name))
+        wall_seconds = _run_rig(plant, sensor, name, out / name, partial(progress, name))
         results[name], theta, phi = _evaluate(paper, out / name, wall_seconds)
         settled = results[name].push.settle_step
         panels[TITLES[name]] = theta, phi, paper.theta_desired, paper.band, settled
@@ -106,11 +113,13 @@ def run_demo(
     return results
 
 
-def _run_rig(plant: str, name: str, bag: Path, progress: Callable[[int], None]) -> float:
+def _run_rig(
+    plant: str, sensor: str, name: str, bag: Path, progress: Callable[[int], None]
+) -> float:
     """Run one rig into a bag and return the time that it took [s]."""
     start = time.monotonic()
     shutil.rmtree(bag, ignore_errors=True)
-    config = config_file(f'{name}.yaml')
+    config, kind = config_file(f'{name}.yaml'), SENSOR_KINDS[sensor]
     with tempfile.TemporaryDirectory(prefix='tactile_push_') as folder:
         device = os.path.join(folder, 'sensor')
         settings = {
@@ -118,11 +127,13 @@ def _run_rig(plant: str, name: str, bag: Path, progress: Callable[[int], None]) 
             'sensor_rate': SENSOR_RATE,
             'publish_clock': True,
             'real_time_factor': REAL_TIME_FACTOR,
+            **kind.plant,
         }
         simulated = {'use_sim_time': True}
         with NodeProcesses(Path(folder)) as nodes:
             nodes.start(plant, settings, config=config)
-            nodes.start(SENSOR_DRIVER, {'device': device, **simulated})
+            read_from = {'device': device} if kind.node == SENSOR_DRIVER else {}
+            nodes.start(kind.node, {**read_from, **kind.parameters, **simulated})
             nodes.start(CONTACT_GEOMETRY, simulated, config=config)
             nodes.start(PUSH_CONTROLLER, {'autostart': False, **simulated}, config=config)
             nodes.start(ACTIVE_SENSING, simulated, config=config)
@@ -157,10 +168,16 @@ def _follow(nodes: NodeProcesses, progress: Callable[[int], None]) -> None:
 def _evaluate(
     paper: PaperFigures, bag: Path, wall_seconds: float
 ) -> tuple[RigResult, Column, Column]:
-    """Return the result of a rig, and theta and phi of its steps [rad]."""
+    """Return the result of a rig, and theta and phi of its steps [rad].
+
+    Theta is the true one: a sensor with noise feels an object that is settled turn to and fro.
+    """
     with BagReader(bag) as reader:
         tables, _ = read_tables(reader, topics_of(reader, ''))
-    states, sensed = tables[CONTROLLER_STATE], tables[SENSING_STATE]
+    truth, sensed = tables[TRUE_STATE], tables[SENSING_STATE]
+    states = dict(tables[CONTROLLER_STATE])
+    latest = np.searchsorted(truth['time'], states['time'], side='right') - 1
+    states['theta'] = truth['theta'][np.maximum(latest, 0)]
     pushing = states['state'] == STATES.index(PUSHING)
     theta, phi = states['theta'][pushing], states['phi'][pushing]
     widths = sensed['d_upper'] - sensed['d_lower']
@@ -170,7 +187,7 @@ def _evaluate(
         ),
         theta_final=float(theta[-1]),
         phi_final=float(phi[-1]),
-        d_final=float(tables[TRUE_STATE]['d'][-1]),
+        d_final=float(truth['d'][-1]),
         known_step=known_step(states['time'][pushing], sensed['time'], widths),
         wall_seconds=wall_seconds,
     )

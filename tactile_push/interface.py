@@ -102,6 +102,8 @@ VERSION_NOTE = 'tactile_push.version'
 
 WRIST_JOINT = 'wrist_joint'  # in `joint_states` of a finger whose wrist holds the tip straight
 
+# Kinds of sensor that the simulated finger may have: one that sends sentences, and one of forces.
+SENSORS = (SENTENCE, FORCE_TORQUE) = ('sentence', 'wrench')
 # Points of the finger tip of which one follows the commanded velocity across the belt.
 POINTS = ('centre', 'pole', 'contact')
 # What active sensing makes of readings while the direction of the finger tip is not known.
@@ -160,7 +162,7 @@ def _estimated(name: str, unit: str, words: str) -> tuple[Field, ...]:
 TOPICS = {
     topic.name: topic
     for topic in (
-        Topic(WRENCH, WRENCH_TYPE, ('the sensor',), (WRENCH_SENSOR,),
+        Topic(WRENCH, WRENCH_TYPE, ('the sensor', *PLANTS), (WRENCH_SENSOR,),
             "force and moment on the finger tip in the sensor's frame, at 20 Hz or more",
         ),
         Topic(TACTILE, JOINT_STATE_TYPE, (SENSOR_DRIVER, WRENCH_SENSOR), (CONTACT_GEOMETRY,),

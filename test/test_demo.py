@@ -5,14 +5,17 @@
 import math
 import subprocess
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from support.demo_results import results
 from tactile_push import demo
-from tactile_push.interface import EXPERIMENT
+from tactile_push.control import PUSHING, STATES
+from tactile_push.interface import CONTROLLER_STATE, EXPERIMENT, SENSING_STATE, TRUE_STATE
 
 
 def test_json_has_it():
@@ -35,6 +38,32 @@ def test_json_has_it():
         'ticks_lost',
         'wall_seconds',
     ]
+
+
+def test_theta_that_counts_is_the_true_one_at_each_step(monkeypatch, tmp_path):
+    time = 0.1 * np.arange(1, 501)
+    pushing = np.full(500, float(STATES.index(PUSHING)))
+    desired = np.full(500, math.radians(-10.0))
+    noise = math.radians(5.0) * (-1.0) ** np.arange(500)
+    states = {'time': time, 'state': pushing, 'theta': desired + noise, 'theta_desired': desired}
+    states |= {'phi': np.full(500, 1.4)}
+    # The truth comes twice a period, the last at the time of the step; it is far off for 2 s.
+    moments = np.repeat(time, 2) - np.tile([0.05, 0.0], 500)
+    far = math.radians(20.0) * (moments < 2.04)
+    truth = {
+        'time': moments,
+        'theta': math.radians(-10.0) + far,
+        'd': np.linspace(0.0, 0.006, 1000),
+    }
+    sensed = {'time': time, 'd_lower': np.zeros(500), 'd_upper': np.ones(500)}
+    tables = {CONTROLLER_STATE: states, TRUE_STATE: truth, SENSING_STATE: sensed}
+    monkeypatch.setattr(demo, 'BagReader', lambda bag: nullcontext())
+    monkeypatch.setattr(demo, 'topics_of', lambda reader, namespace: {})
+    monkeypatch.setattr(demo, 'read_tables', lambda reader, topics: (tables, {}))
+    result, theta, _ = demo._evaluate(demo.RIGS['block'], tmp_path, 1.0)
+    assert result.push.settle_step == 20
+    assert theta[[18, 19, 20]] == pytest.approx(np.radians([10.0, 10.0, -10.0]))
+    assert result.d_final == 0.006
 
 
 class Nodes:

@@ -52,7 +52,7 @@ def test_every_node_has_a_module_and_a_command():
 
 def test_givers_and_takers_are_nodes_of_the_package_or_the_finger():
     for topic in TOPICS.values():
-        assert {*topic.givers, *topic.takers} <= {*NODES, 'the finger'}
+        assert {*topic.givers, *topic.takers} <= {*NODES, 'the finger', 'the sensor'}
 
 
 def test_recorded_topics_are_all_but_what_follows_from_them():

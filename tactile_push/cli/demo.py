@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tactile_push.cli.arguments import Commands, Refused
-from tactile_push.interface import MUJOCO_PLANT, SIM_PLANT
+from tactile_push.interface import MUJOCO_PLANT, SENSORS, SENTENCE, SIM_PLANT
 from tactile_push.needs_mujoco import mujoco_is_missing
 from tactile_push.paper import DISK
 
@@ -42,6 +42,13 @@ def add(commands: Commands) -> None:
         help="who simulates: the paper's mechanics, or MuJoCo with a finger of joints and a push "
         'above the belt (default: paper)',
     )
+    demo.add_argument(
+        '--sensor',
+        choices=SENSORS,
+        default=SENTENCE,
+        help='what the finger feels with: a sensor that sends sentences, or a force/torque sensor '
+        'with its noise (default: sentence)',
+    )
     demo.add_argument('--json', action='store_true', help='print one JSON object, SI units')
     demo.set_defaults(run=_demo, ros=True)
 
@@ -72,6 +79,7 @@ def _demo(options: argparse.Namespace) -> int:
                     options.out,
                     lambda name, steps: bar.update(tasks[name], completed=min(steps, demo.STEPS)),
                     plant,
+                    options.sensor,
                 )
     except demo.DemoError as error:
         raise Refused(error, status=1) from None

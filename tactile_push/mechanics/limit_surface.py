@@ -201,20 +201,7 @@ class ExactLimitSurface:
         ValueError
             If the twist is zero: a resting object does not determine its wrench.
         """
-        v_x, v_y, omega = np.asarray(twist, dtype=float)
-        if not (v_x or v_y or omega):
-            raise ValueError(f'twist: expected a motion that is not zero, got {twist!r}')
-        x, y, load, *growth = self.points
-        u_x, u_y = v_x - omega * y, v_y + omega * x
-        speed = np.hypot(u_x, u_y)
-        moving = speed > STANDSTILL * (math.hypot(v_x, v_y) + self.support.c * abs(omega))
-        if growth:
-            slowness = np.divide(1.0, speed, out=np.zeros_like(speed), where=moving)
-            directions = slowness * [u_x, u_y]
-            by_force = directions @ np.transpose(growth)
-            load = load + np.linalg.solve(np.eye(2) - by_force, directions @ load) @ growth
-        friction = np.divide(load, speed, out=np.zeros_like(speed), where=moving)
-        return np.array([friction @ u_x, friction @ u_y, friction @ (x * u_y - y * u_x)])
+        return summed_friction(self.points, twist)
 
     def twist(self, wrench: npt.ArrayLike) -> Array:
         """Compute the direction of motion under a wrench.
@@ -313,3 +300,40 @@ class ExactLimitSurface:
 
 
 LimitSurface = EllipsoidalLimitSurface | ExactLimitSurface
+
+
+def summed_friction(points: Array, twist: npt.ArrayLike) -> Array:
+    """Compute the wrench that the frictions of support points add up to.
+
+    Parameters
+    ----------
+    points : ndarray, shape (3, N) or (5, N)
+        Rows as of `ExactLimitSurface.points`.
+    twist : array_like, shape (3,)
+        Velocity (v_x, v_y, omega) [m/s, m/s, rad/s], not zero.
+
+    Returns
+    -------
+    ndarray, shape (3,)
+        Force and moment (f_x, f_y, m), as `ExactLimitSurface.wrench` returns them.
+
+    Raises
+    ------
+    ValueError
+        If the twist is zero.
+    """
+    v_x, v_y, omega = np.asarray(twist, dtype=float)
+    if not (v_x or v_y or omega):
+        raise ValueError(f'twist: expected a motion that is not zero, got {twist!r}')
+    x, y, load, *growth = points
+    u_x, u_y = v_x - omega * y, v_y + omega * x
+    speed = np.hypot(u_x, u_y)
+    fastest = math.hypot(v_x, v_y) + np.hypot(x, y).max() * abs(omega)
+    moving = speed > STANDSTILL * fastest
+    if growth:
+        slowness = np.divide(1.0, speed, out=np.zeros_like(speed), where=moving)
+        directions = slowness * [u_x, u_y]
+        by_force = directions @ np.transpose(growth)
+        load = load + np.linalg.solve(np.eye(2) - by_force, directions @ load) @ growth
+    friction = np.divide(load, speed, out=np.zeros_like(speed), where=moving)
+    return np.array([friction @ u_x, friction @ u_y, friction @ (x * u_y - y * u_x)])

@@ -6,12 +6,17 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from tactile_push.mechanics.body import Body, Finger, Pose
 from tactile_push.mechanics.compiled import Array
 from tactile_push.mechanics.contact import TOUCH, clearance
 from tactile_push.mechanics.friction import check_friction, friction_cone
-from tactile_push.mechanics.limit_surface import ExactLimitSurface
+from tactile_push.mechanics.limit_surface import (
+    EllipsoidalLimitSurface,
+    ExactLimitSurface,
+    summed_friction,
+)
 from tactile_push.mechanics.outline import Outline
 from tactile_push.mechanics.push import move_finger
 from tactile_push.mechanics.support import Support
@@ -99,6 +104,29 @@ class Slider:
         if centre_of_mass is not None:
             _check_balance(loaded, centre_of_mass)
         return cls(outline.about(*support.centre), support.c, surface.points if exact else None)
+
+    def wrench(self, twist: npt.ArrayLike) -> Array:
+        """Compute what keeps a motion going, as a share of f_max.
+
+        Parameters
+        ----------
+        twist : array_like, shape (3,)
+            Velocity (v_x, v_y, omega) [m/s, m/s, rad/s] of the origin in the object's axes, not
+            zero.
+
+        Returns
+        -------
+        ndarray, shape (3,)
+            Force and moment by f_max (f_x, f_y, m) [1, 1, m].
+
+        Raises
+        ------
+        ValueError
+            If the twist is zero.
+        """
+        if self.points is None:
+            return EllipsoidalLimitSurface(1.0, self.c).wrench(twist)
+        return summed_friction(self.points, twist) / self.points[2].sum()
 
     def body(self, r: float) -> Body:
         """Return the object as the compiled functions take it.

@@ -49,6 +49,11 @@ def mujoco_config(p: MujocoPlantParameters) -> tuple['RigConfig', 'MujocoPhysics
 
     if p.c != 0.0:
         raise ValueError(f'parameter c: expected 0.0, as the support gives it here, got {p.c}')
+    if p.f_max != MujocoPlantParameters.f_max:
+        raise ValueError(
+            f'parameter f_max: expected {MujocoPlantParameters.f_max}, as mu_s and mass give it '
+            f'here, got {p.f_max}'
+        )
     config = rig_config(p)
     outline = config.slider.outline
     inertia = None if p.inertia == EVEN_PRISM else p.inertia

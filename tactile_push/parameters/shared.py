@@ -23,5 +23,11 @@ mount_angle = parameter(FINGER.mount_angle, 'rad',
 commanded_point = parameter(POINTS[0], '',
     "point of the tip that follows the commanded velocity: the disk's centre, the pole as in the "
     'paper, or the contact', choices=POINTS, read_only=True)
+tip_xyz = parameter([0.0, 0.0, 0.02], 'm',
+    "where the centre of the hemispherical tip is in the force/torque sensor's frame",
+    read_only=True)
+tip_rpy = parameter([0.0, 0.0, 0.0], 'rad',
+    "roll, pitch and yaw of fingertip in the sensor's frame, as in a URDF: its z leads to the "
+    'pole, its x lies in the plane of motion, to the left of the pole', read_only=True)
 autostart = parameter(True, '', 'configure and activate without a manager', read_only=True)
 # fmt: on

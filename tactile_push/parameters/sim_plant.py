@@ -13,7 +13,9 @@ from tactile_push.parameters.parameter import NodeParameters, parameter
 from tactile_push.tactile import PlanarFinger
 
 if typing.TYPE_CHECKING:
-    from tactile_push.simulation import Faults, RigConfig
+    from tactile_push.simulation import Faults, Mount, RigConfig
+
+SIX_ZEROS = [0.0] * 6
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,16 @@ class SimPlantParameters(NodeParameters):
         'the finger tip turns with the last link; otherwise wrist_joint, a third joint, holds it '
         'straight', read_only=True)
     commanded_point: str = shared.commanded_point
+    f_max: float = parameter(2.7, 'N',
+        'force that moves the object straight on, by which the finger is pushed back',
+        1e-3, 1e4, read_only=True)
+    publish_wrench: bool = parameter(False, '',
+        'publish what a force/torque sensor under the finger tip measures', read_only=True)
+    tip_xyz: list[float] = shared.tip_xyz
+    tip_rpy: list[float] = shared.tip_rpy
+    contact_lag: float = parameter(0.0, 's',
+        'by how much the contact of a reading may be older than it, as with a sensor node that '
+        'filters', 0.0, 1.0, read_only=True)
     sensor_rate: float = parameter(50.0, 'Hz', 'readings a second', 1.0, 1000.0, read_only=True)
     command_timeout: float = parameter(0.5, 's',
         'the finger stops after this long without a command', 0.01, 10.0, read_only=True)
@@ -91,6 +103,14 @@ class SimPlantParameters(NodeParameters):
     sensor_stuck: bool = parameter(False, '', 'the sensor sends its last value for ever')
     sensor_detectable_range: float = parameter(math.pi / 2.0, 'rad',
         'largest angle from the pole at which the sensor feels a contact', 0.0, math.pi / 2.0)
+    wrench_noise: float = parameter(0.0, 'N',
+        'standard deviation of the noise of each component of the force', 0.0, 1000.0)
+    wrench_moment_noise: float = parameter(0.0, 'N m',
+        'the same of the moment', 0.0, 1000.0)
+    wrench_offset: list[float] = parameter(SIX_ZEROS, 'N, N m',
+        'force and moment that the sensor tells without a contact')
+    wrench_drift: list[float] = parameter(SIX_ZEROS, 'N/s, N m/s',
+        'how fast that changes')
     seed: int = parameter(0, '',
         "seed of the sensor's random errors", 0, 2147483647, read_only=True)
     # fmt: on
@@ -127,7 +147,7 @@ def rig_config(p: SimPlantParameters) -> 'RigConfig':
     try:
         return RigConfig(
             *(slider, p.mu_c, p.theta_initial, d, p.belt_speed, p.finger_radius, finger),
-            *(p.tip_turns, p.commanded_point),
+            *(p.tip_turns, p.commanded_point, p.f_max),
         )
     except ValueError as error:
         raise ValueError(re.sub('^d:', 'parameter d_initial:', str(error))) from None
@@ -135,12 +155,27 @@ def rig_config(p: SimPlantParameters) -> 'RigConfig':
 
 def faults(p: SimPlantParameters) -> 'Faults':
     """Return the faults that the parameters describe; ValueError if they do not fit together."""
-    from tactile_push.simulation import Belt, Faults, Sensor, Servo, UnevenFriction, Workspace
+    from tactile_push.simulation import (
+        Belt,
+        Faults,
+        ForceSensor,
+        Sensor,
+        Servo,
+        UnevenFriction,
+        Workspace,
+    )
 
     try:
         workspace = Workspace(p.workspace_min, p.workspace_max)
     except ValueError as error:
         raise ValueError(re.sub('^workspace:', 'parameter workspace_min:', str(error))) from None
+    try:
+        force_sensor = ForceSensor(
+            *(p.wrench_noise, p.wrench_moment_noise),
+            *(tuple(p.wrench_offset), tuple(p.wrench_drift)),
+        )
+    except ValueError as error:
+        raise ValueError(f'parameter wrench_{error}') from None
     return Faults(
         Servo(p.servo_time_constant, p.servo_delay, p.servo_velocity_quantum),
         workspace,
@@ -156,4 +191,12 @@ def faults(p: SimPlantParameters) -> 'Faults':
             p.sensor_stuck,
             p.sensor_detectable_range,
         ),
+        force_sensor,
     )
+
+
+def mount(p: SimPlantParameters) -> 'Mount':
+    """Return how the tip sits on its force/torque sensor; ValueError if it cannot."""
+    from tactile_push.simulation import Mount
+
+    return Mount(p.finger_radius, tuple(p.tip_xyz), tuple(p.tip_rpy))

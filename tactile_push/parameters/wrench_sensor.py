@@ -19,11 +19,8 @@ class WrenchSensorParameters(NodeParameters):
 
     # fmt: off
     tip_radius: float = parameter(USUAL.radius, 'm', 'radius of the hemispherical tip', 1e-4, 1.0)
-    tip_xyz: list[float] = parameter(list(USUAL.xyz), 'm',
-        "where the centre of the hemisphere is in the sensor's frame")
-    tip_rpy: list[float] = parameter(list(USUAL.rpy), 'rad',
-        "roll, pitch and yaw of fingertip in the sensor's frame, as in a URDF: its z leads to the "
-        'pole, its x lies in the plane of motion, to the left of the pole')
+    tip_xyz: list[float] = shared.tip_xyz
+    tip_rpy: list[float] = shared.tip_rpy
     reaction: bool = parameter(USUAL.reaction, '',
         'wrenches are what the tip exerts; otherwise they are what acts on it')
     contact_force: float = parameter(USUAL.contact_force, 'N',

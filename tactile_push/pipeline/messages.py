@@ -8,7 +8,7 @@ default value.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -39,6 +39,12 @@ def tactile_fields(stamp: Stamp, values: Mapping[str, float]) -> Fields:
             value if arrays[name] == array else math.nan for name, value in values.items()
         ]
     return fields
+
+
+def wrench_fields(stamp: Stamp, frame: str, wrench: Sequence[float]) -> Fields:
+    """Return the fields of a WrenchStamped: force [N], then moment [N m]."""
+    force, torque = (dict(zip('xyz', three, strict=True)) for three in (wrench[:3], wrench[3:]))
+    return {'header': _header(stamp, frame), 'wrench': {'force': force, 'torque': torque}}
 
 
 def pose_fields(stamp: Stamp, x: float, y: float, yaw: float) -> Fields:

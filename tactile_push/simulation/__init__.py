@@ -7,6 +7,7 @@ from tactile_push.simulation.belt import Belt
 from tactile_push.simulation.device_server import serve
 from tactile_push.simulation.experiment import control_periods, experiment
 from tactile_push.simulation.faults import Faults
+from tactile_push.simulation.force_sensor import ForceReadout, ForceSensor, Mount
 from tactile_push.simulation.object_files import read_object, read_support
 from tactile_push.simulation.rig import Rig, RigConfig, paper_block, paper_disk
 from tactile_push.simulation.rollout import Rollout, rollout
@@ -17,6 +18,9 @@ from tactile_push.simulation.uneven_friction import UnevenFriction
 __all__ = [
     'Belt',
     'Faults',
+    'ForceReadout',
+    'ForceSensor',
+    'Mount',
     'Readout',
     'Rig',
     'RigConfig',

@@ -5,6 +5,7 @@
 from dataclasses import dataclass
 
 from tactile_push.simulation.belt import Belt
+from tactile_push.simulation.force_sensor import ForceSensor
 from tactile_push.simulation.sensor import Sensor
 from tactile_push.simulation.servo import Servo, Workspace
 from tactile_push.simulation.uneven_friction import UnevenFriction
@@ -19,6 +20,7 @@ class Faults:
     belt: Belt = Belt()  #: how the belt runs
     friction: UnevenFriction = UnevenFriction()  #: how mu_c varies around the object
     sensor: Sensor = Sensor()  #: how the sensor errs
+    force_sensor: ForceSensor = ForceSensor()  #: how the force/torque sensor errs
 
 
 NO_FAULTS = Faults()

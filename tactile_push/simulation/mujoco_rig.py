@@ -90,7 +90,9 @@ class MujocoRig:
         self.v_y = 0.0  #: the belt's speed at the end of the last step [m/s]
         self.touching = True  #: whether finger and object touch
         self.theta = config.theta  #: angle of the tangent plane at the last contact [rad]
-        self.normal_force = 0.0  #: force at the contact along its normal [N]
+        #: what the finger exerts on the object, x and y in `finger_base` [N]
+        self.contact_force = (0.0, 0.0)
+        self.normal_force = 0.0  #: its part along the normal [N]
         self.mode = FREE  #: how the contact moved at the end of the last step, an index of `MODES`
         self.phi = math.pi / 2.0  #: direction of the finger on the belt [rad]
         self.at_workspace_limit = False  #: whether the finger could not follow its velocity
@@ -201,7 +203,7 @@ class MujocoRig:
     def contact_directions(self) -> dict[str, tuple[float, float]]:
         """Unit vectors at the contact: 'normal', 'left' and 'right' (friction cone), 'push'."""
         alpha = math.atan(self._model.pair_friction[0, 0])
-        return directions(self.theta + math.pi / 2.0, alpha, self.phi)
+        return directions(self.theta, alpha, self.phi)
 
     def reading(self) -> Reading:
         """Read the sensor.
@@ -288,13 +290,15 @@ class MujocoRig:
         found = np.flatnonzero((data.contact.geom == self._touch).all(axis=1))
         self.touching = len(found) > 0
         if not self.touching:
-            self.mode, self.normal_force = FREE, 0.0
+            self.mode, self.normal_force, self.contact_force = FREE, 0.0, (0.0, 0.0)
             return
         contact = data.contact[found[0]]
         normal, *along = contact.frame.reshape(3, 3)
         self.theta = normalized_angle(math.atan2(normal[1], normal[0]) - math.pi / 2.0)
         rows = slice(contact.efc_address, contact.efc_address + 3)
         self.normal_force = float(data.efc_force[rows][0])
+        f_x, f_y, _ = data.efc_force[rows] @ [normal, *along]
+        self.contact_force = float(f_x), float(f_y)
         _, *rates = data.efc_vel[rows]  # of the object on the finger
         tangent = math.cos(self.theta), math.sin(self.theta)
         slip = -sum(rate * (axis[:2] @ tangent) for rate, axis in zip(rates, along, strict=True))

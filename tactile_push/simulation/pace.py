@@ -14,16 +14,20 @@ class Pace:
     the stamp of the last reading, because a driver that reads late would stamp it with a later
     time. So a loaded machine makes an experiment slower, not different. Time does not wait for the
     contact of a reading that is lost, reports no contact or is an outlier: none need follow.
+    A contact may be stamped earlier than its reading by `lag`, as by a sensor node that filters.
     After `patience` of wall time it no longer waits for what is overdue, until that comes again:
     whoever sends it has gone. Time in which this process itself stood still does not count, since
     what is overdue may lie here unread.
     """
 
-    def __init__(self, real_time_factor: float, control_period: float, patience: float) -> None:
+    def __init__(
+        self, real_time_factor: float, control_period: float, patience: float, lag: float = 0.0
+    ) -> None:
         # Simulated seconds a second, at the most; at most 1 until there are contacts and commands.
         self._factor = real_time_factor
         self._control_period = control_period  # simulated time between commands [s]
         self._patience = patience  # how long time stands for something overdue [s of wall time]
+        self._lag = lag  # of a contact's stamp behind its reading [s]
         self._next_wall = -math.inf
         self._held = 0.0  # for how long time has stood still [s of wall time]
         self._looked = math.inf  # when it was last seen to stand still [s of wall time]
@@ -64,7 +68,7 @@ class Pace:
             return False
         due = self._command + self._control_period
         command_overdue = time > due + step / 2.0
-        self._contact_overdue = self._contact < self._reading - step / 2.0
+        self._contact_overdue = self._contact + self._lag < self._reading - step / 2.0
         if command_overdue or self._contact_overdue:
             longest = max(LONGEST_LOOK, step / self._factor)
             self._held += min(max(wall - self._looked, 0.0), longest)

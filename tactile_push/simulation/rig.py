@@ -24,7 +24,7 @@ from tactile_push.mechanics import (
     move_finger,
     tangent_angle,
 )
-from tactile_push.mechanics.contact import piece_at, reach
+from tactile_push.mechanics.contact import piece_at, reach, rotated
 from tactile_push.simulation.faults import NO_FAULTS, Faults
 from tactile_push.simulation.servo import DelayLine, lagged, quantised
 from tactile_push.simulation.tip import EVEN_TURN, Tip, move_tip
@@ -63,9 +63,10 @@ class RigConfig:
     #: which point of a turning tip follows the command, one of `POINTS`; the centre of the disk
     #: stays where it is along the belt
     commanded_point: str = POINTS[CENTRE]
+    f_max: float = 2.7  #: force that moves the object straight on [N]
 
     def __post_init__(self) -> None:
-        for name in ('belt_speed', 'radius'):
+        for name in ('belt_speed', 'radius', 'f_max'):
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0.0):
                 raise ValueError(f'{name}: expected a positive finite number, got {value}')
@@ -180,6 +181,8 @@ class Rig:
         self.mode = FREE  #: how the contact moved at the end of the last step, an index of `MODES`
         self.phi = math.pi / 2.0  #: direction of the finger on the belt in the last step [rad]
         self.at_workspace_limit = False  #: whether the finger could not follow its velocity
+        # How the object moved last, in its own axes; None if it has not moved.
+        self._slid: tuple[float, float, float] | None = None
         angle = config.theta - tangent_angle(self.sigma, self._body.path)
         d, l = self._contact
         x, y = reach(config.theta, d, l, config.radius)
@@ -245,6 +248,21 @@ class Rig:
         """Unit vectors at the contact: 'normal', 'left' and 'right' (friction cone), 'push'."""
         cos_alpha, sin_alpha = self._friction_cone
         return directions(self.theta, math.atan2(sin_alpha, cos_alpha), self.phi)
+
+    @property
+    def contact_force(self) -> tuple[float, float]:
+        """What the finger exerts on the object, x and y in `finger_base` [N].
+
+        The limit surface gives it from the object's last motion. Before the first one the finger
+        pushes straight, and while the belt stands it goes on to push.
+        """
+        if not self.touching:
+            return 0.0, 0.0
+        f_max, angle = self.config.f_max, self.object_pose.angle
+        if self._slid is None:
+            return -f_max * math.sin(self.theta), f_max * math.cos(self.theta)
+        f_x, f_y, _ = f_max * self.config.slider.wrench(self._slid)
+        return rotated(float(f_x), float(f_y), angle)
 
     def reading(self) -> Reading:
         """Read the sensor.
@@ -336,11 +354,15 @@ class Rig:
             self.mode = FREE
             return
         self.phi = math.atan2(v_y, v_x)
+        before = self.object_pose
         self.object_pose, self.sigma, self.touching, self.mode = move_finger(
             *(self.object_pose, self.sigma, self.touching, self.finger_x, self.finger_y),
             *(v_x, v_y, duration, self._body, Finger(*self._friction_cone, self.config.radius)),
             (psi - self.psi) / duration,
         )
+        x, y, angle = (a - b for a, b in zip(self.object_pose, before, strict=True))
+        if self.touching and (x or y or angle):
+            self._slid = *rotated(x, y, -self.object_pose.angle), angle
         self.finger_x += v_x * duration
         self.finger_y += v_y * duration
         self.psi = psi

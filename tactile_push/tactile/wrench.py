@@ -18,6 +18,7 @@ International Journal of Robotics Research 12 (3), 249-262, 1993.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,6 +45,29 @@ class WrenchContact:
         """Azimuth and elevation; below 0 for a contact on the rim's far side."""
         x, y, z = self.normal.tolist()
         return Reading(math.atan2(y, x), math.asin(min(max(z, -1.0), 1.0)), self.normal_force)
+
+
+def axes_of_rpy(rpy: Sequence[float]) -> Vector:
+    """Return the axes of a frame that is turned by roll, pitch and yaw, as in a URDF.
+
+    Parameters
+    ----------
+    rpy : sequence of float
+        Angles about the fixed axes x, then y, then z [rad].
+
+    Returns
+    -------
+    ndarray, shape (3, 3)
+        The frame's axes as columns.
+    """
+    (sr, sp, sy), (cr, cp, cy) = np.sin(rpy), np.cos(rpy)
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )
 
 
 def contact_of_wrench(

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from tactile_push.tactile.hemisphere import ReadingRejectedError
 from tactile_push.tactile.reading import NO_CONTACT, Reading
-from tactile_push.tactile.wrench import LEAST_FORCE, MOST_FORCE, contact_of_wrench
+from tactile_push.tactile.wrench import LEAST_FORCE, MOST_FORCE, axes_of_rpy, contact_of_wrench
 
 LEAST_OF_A_TARE = 10  # wrenches within its time; a slower sensor is of no use anyway; picked
 NOT_TARED = 'not tared'
@@ -86,14 +86,7 @@ class WrenchSensing:
     @cached_property
     def axes(self) -> Vector:
         """The tip's axes in the sensor's frame, the columns of shape (3, 3)."""
-        (sr, sp, sy), (cr, cp, cy) = np.sin(self.rpy), np.cos(self.rpy)
-        return np.array(
-            [
-                [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-                [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-                [-sp, cp * sr, cp * cr],
-            ]
-        )
+        return axes_of_rpy(self.rpy)
 
 
 @dataclass(frozen=True)

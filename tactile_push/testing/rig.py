@@ -20,11 +20,13 @@ from tactile_push.interface import (
     PLANTS,
     PUSH_CONTROLLER,
     SENSOR_DRIVER,
+    SENTENCE,
     SIM_PLANT,
     TACTILE,
     TRUE_STATE,
 )
 from tactile_push.parameters.config_file import config_file
+from tactile_push.parameters.sensor_kinds import SENSOR_KINDS
 from tactile_push.testing.fork_server import ForkedNode
 from tactile_push.testing.observer import Heard, Observer, field
 from tactile_push.testing.processes import NodeProcesses
@@ -103,6 +105,7 @@ class Rig:
         *,
         controller: bool = True,
         simulator: str = SIM_PLANT,
+        sensor: str = SENTENCE,
         **plant: Any,
     ) -> None:
         """Start the nodes on simulated time and wait until they hear each other.
@@ -118,13 +121,16 @@ class Rig:
             finger.
         simulator : str, optional
             The node that simulates, `sim_plant` or `mujoco_plant`.
+        sensor : str, optional
+            Which kind of sensor the finger has, 'sentence' or 'wrench'.
         **plant : object
             Parameters of that node, such as the faults of the sensor.
         """
         self._config = config if isinstance(config, Path) else config_file(f'{config}.yaml')
-        self.start_node(simulator, TIMING | plant)
+        kind = SENSOR_KINDS[sensor]
+        self.start_node(simulator, TIMING | kind.plant | plant)
         simulated = {'use_sim_time': True}
-        self.start_node('sensor_driver', simulated)
+        self.start_node(kind.node, kind.parameters | simulated)
         self.start_node('contact_geometry', simulated)
         hearing = {CONTACT: 2}
         if controller:

@@ -19,7 +19,7 @@ def plant(bench, tmp_path):
 
 
 def test_topics_are_those_of_the_interface(bench, plant):
-    plant(publish_clock=True)
+    plant(publish_clock=True, publish_wrench=True)
     assert bench.topics() == declared_topics(SIM_PLANT)
 
 

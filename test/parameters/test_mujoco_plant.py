@@ -45,6 +45,7 @@ def test_the_push_and_the_object_are_as_given():
     ('given', 'refusal'),
     [
         ({'c': 0.02}, 'parameter c: expected 0.0, as the support gives it here, got 0.02'),
+        ({'f_max': 1.0}, 'parameter f_max: expected 2.7, as mu_s and mass give it here, got 1.0'),
         ({'push_height': 0.06}, 'parameter push_height: expected a height of the object'),
         ({'object': 'disk', 'support': 'corners'}, 'parameter support: expected a polygon'),
         ({'d_initial': 0.3}, 'parameter d_initial: expected a contact'),

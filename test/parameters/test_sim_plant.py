@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-import math
-
 import pytest
 
 from tactile_push.parameters.sim_plant import (
@@ -34,6 +32,10 @@ VALUES = {
     'sensor_outlier': (0.025, lambda f: f.sensor.outlier),
     'sensor_stuck': (True, lambda f: f.sensor.stuck),
     'sensor_detectable_range': (0.7, lambda f: f.sensor.detectable_range),
+    'wrench_noise': (0.05, lambda f: f.force_sensor.noise),
+    'wrench_moment_noise': (0.0005, lambda f: f.force_sensor.moment_noise),
+    'wrench_offset': ([1.0, 2.0, 3.0, 0.1, 0.2, 0.3], lambda f: list(f.force_sensor.offset)),
+    'wrench_drift': ([0.1, 0.0, 0.0, 0.0, 0.0, 0.2], lambda f: list(f.force_sensor.drift)),
 }
 
 
@@ -44,8 +46,8 @@ def test_every_fault_is_off_by_default_and_changeable_while_the_plant_runs():
 
 @pytest.mark.parametrize('fault', FAULTS, ids=lambda fault: fault.name)
 def test_a_fault_that_is_on_is_named(fault):
-    value = True if isinstance(fault.default, bool) else 0.125
-    assert not math.isclose(value, fault.default)
+    value = {bool: True, list: [0.125] * 6}.get(type(fault.default), 0.125)
+    assert value != fault.default
     on = faults_on(SimPlantParameters(**{fault.name: value}))
     assert on == ([] if fault.name in HARMLESS else [fault.name])
 
@@ -66,6 +68,11 @@ def test_a_workspace_without_a_place_is_refused():
     assert faults(bounded).workspace == Workspace(-0.1, 0.1)
     with pytest.raises(ValueError, match='parameter workspace_min: expected'):
         faults(SimPlantParameters(workspace_min=0.1, workspace_max=-0.1))
+
+
+def test_a_wrench_of_other_than_six_numbers_is_refused():
+    with pytest.raises(ValueError, match='parameter wrench_offset: expected six finite numbers'):
+        faults(SimPlantParameters(wrench_offset=[1.0]))
 
 
 def test_a_start_beyond_the_edge_is_refused_by_the_name_of_its_parameter():

@@ -188,6 +188,23 @@ def test_the_reading_has_the_force():
     assert rig.reading().normal_force == rig.normal_force > 1.0
 
 
+def test_the_force_carries_the_object_against_the_friction_of_the_belt():
+    rig = pushed(MujocoRig(config(start=(0.0, 0.0)), PHYSICS), 20)
+    weight = PHYSICS.mass * 9.81
+    # The finger is pushed up a little, too, and carries some of the weight.
+    assert math.hypot(*rig.contact_force) == pytest.approx(PHYSICS.mu_s * weight, rel=0.03)
+    across = -rig.contact_force[0] * math.sin(rig.theta) + rig.contact_force[1] * math.cos(
+        rig.theta
+    )
+    assert across == pytest.approx(rig.normal_force, rel=1e-6)
+
+
+def test_the_normal_that_is_shown_leads_into_the_object():
+    rig = pushed(MujocoRig(config(), PHYSICS), 5)
+    normal = -math.sin(rig.theta), math.cos(rig.theta)
+    assert rig.contact_directions['normal'] == pytest.approx(normal)
+
+
 def test_the_belt_s_ripple_is_that_of_the_fault():
     belt = Belt(ripple=0.5, frequency=0.5)
     rig = pushed(MujocoRig(config(), PHYSICS, Faults(belt=belt)), 10)

@@ -17,8 +17,8 @@ SLACK = 2.5 * STEP  # what two steps at the very start may be ahead
 class Loop:
     """Simulated and wall time, moved on as the plant does."""
 
-    def __init__(self, factor, start=1000.0):
-        self.pace = Pace(factor, PERIOD, PATIENCE)
+    def __init__(self, factor, start=1000.0, lag=0.0):
+        self.pace = Pace(factor, PERIOD, PATIENCE, lag)
         self.wall = self.start = start
         self.steps = 0
 
@@ -330,3 +330,20 @@ def test_pace_tells_whether_a_contact_is_overdue():
     loop.pace.contact(loop.time)
     assert loop.poll()
     assert not loop.pace.contact_overdue
+
+
+def test_time_waits_for_a_contact_that_is_no_older_than_the_lag():
+    loop = Loop(100.0, lag=0.05)
+    loop.close()
+    for _ in range(20):
+        while not loop.poll():
+            loop.wall += 0.001
+        loop.pace.reading(loop.time)
+        loop.pace.command(loop.time, loop.time)
+        loop.pace.contact(loop.time - 0.05 - STEP)  # older than the lag
+        assert loop.poll_for(0.1) == 0
+        loop.pace.contact(loop.time - 0.05)
+        assert loop.poll_for(0.001) == 1
+        loop.pace.reading(loop.time)
+        loop.pace.contact(loop.time - 0.05)
+        loop.pace.command(loop.time, loop.time)

@@ -911,6 +911,70 @@ def test_contact_directions_are_normal_cone_and_push(mu_c, alpha):
     )
 
 
+def test_force_before_the_first_motion_pushes_straight():
+    rig = Rig(paper_block(math.radians(20.0)))
+    normal = math.radians(110.0)
+    expected = [2.7 * math.cos(normal), 2.7 * math.sin(normal)]
+    assert rig.contact_force == pytest.approx(expected)
+
+
+def test_force_that_carries_the_object_straight_on_is_f_max_along_its_way():
+    config = dataclasses.replace(paper_block(theta=0.0, d=0.0), f_max=1.8)
+    rig = Rig(config)
+    rig.step(0.0, 0.5)
+    assert rig.contact_force == pytest.approx((0.0, 1.8), abs=1e-9)
+
+
+SUPPORTS = {
+    'ellipsoid': lambda outline: Slider.on(outline, Support.uniform(outline)),
+    'exact': lambda outline: Slider.on(outline, Support.corners(outline), exact=True),
+}
+
+
+@pytest.mark.parametrize('support', SUPPORTS)
+@pytest.mark.parametrize(('mu_c', 'v_x'), [(0.3, 0.0), (0.1, 0.006), (0.1, -0.006), (2.0, 0.003)])
+def test_force_lies_in_the_friction_cone_and_on_its_side_when_slipping(support, mu_c, v_x):
+    outline = Outline.rectangle(0.05, 0.0475)
+    slider = SUPPORTS[support](outline)
+    rig = Rig(RigConfig(slider, mu_c, math.radians(10.0), 0.006, tip_turns=False))
+    rig.step(v_x, 0.2)
+    rig.step(v_x, 1e-4)  # the force is that of the mean motion of a step
+    assert rig.touching
+    (f_x, f_y), theta = rig.contact_force, rig.theta
+    across, along = (
+        -f_x * math.sin(theta) + f_y * math.cos(theta),
+        f_x * math.cos(theta) + f_y * math.sin(theta),
+    )
+    assert across > 0.0
+    # The moment about the centre of mass is that of the force at the contact.
+    place = rig.object_in_finger_disk
+    x, y = (-R * math.sin(theta) - place.x, R * math.cos(theta) - place.y)
+    before = rig.object_pose
+    rig.step(v_x, 1e-4)
+    after = rig.object_pose
+    turns = after.angle - before.angle
+    moment = x * f_y - y * f_x
+    assert moment * turns > 0.0
+    if rig.mode == STICK:
+        assert abs(along) <= mu_c * across * 1.001
+    else:  # the tip that slips to the left along the object drags it there
+        assert abs(along) == pytest.approx(mu_c * across, rel=2e-3)
+    if support == 'ellipsoid':
+        # (4) and (5): v / f = c^2 omega / m, and the force is on the ellipsoid.
+        m = 2.7 * slider.c
+        assert (f_x**2 + f_y**2) / 2.7**2 + (moment / m) ** 2 == pytest.approx(1.0, rel=2e-3)
+
+
+def test_force_ends_with_the_contact_and_stays_while_the_belt_stands():
+    rig = Rig(paper_block())
+    rig.step(0.002, 0.5)
+    pushing = rig.contact_force
+    rig.step(0.0, 0.5, belt_running=False)
+    assert rig.contact_force == pushing
+    rig.touching = False
+    assert rig.contact_force == (0.0, 0.0)
+
+
 GOOD = {
     'slider': Slider(Outline.rectangle(0.05, 0.0475), 0.0187),
     'mu_c': 1.0,

@@ -52,6 +52,20 @@ def test_loop_settles_along_the_trajectory_of_the_experiment_without_clocks_and_
     assert field(states[0], 'v_x') == 0.0
 
 
+def test_block_settles_by_what_a_force_torque_sensor_feels_in_spite_of_its_noise(rig: Rig):
+    rig.start('block', sensor='wrench')
+    states = pushed(rig, STEPS)
+    theta = np.array([field(m, 'theta') for m in rig.truth[-20:]])
+    # Noise alone moves no object: the true angle settles as without it, by the step of the paper.
+    settled = settle_step(
+        np.array([field(m, 'theta') for m in states]), math.radians(-10.0), math.radians(3.0)
+    )
+    assert settled is not None
+    assert settled <= 230
+    assert np.degrees(np.abs(theta - math.radians(-10.0))).max() < 3.0
+    assert {'normal_force', 'tangential_force'} <= set(rig.tactile[-1].name)
+
+
 def test_loop_on_mujoco_goes_along_the_trajectory_without_clocks_and_processes(rig: Rig):
     pytest.importorskip('mujoco', reason="pip install 'tactile_push[mujoco]'")
     from tactile_push.simulation.mujoco_rig import MujocoRig

@@ -10,10 +10,11 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from builtin_interfaces.msg import Time
-from geometry_msgs.msg import PoseStamped, TwistStamped
+from geometry_msgs.msg import PoseStamped, TwistStamped, WrenchStamped
 from rclpy.clock import Clock as NodeClock
 from rclpy.clock_type import ClockType
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
@@ -29,6 +30,7 @@ from tactile_push.interface import (
     TOPICS,
     TRUE_POSE,
     TRUE_STATE,
+    WRENCH,
     WRIST_JOINT,
 )
 from tactile_push.nodes.ros.compiling import compiling
@@ -37,9 +39,9 @@ from tactile_push.nodes.ros.markers import rig_markers
 from tactile_push.nodes.ros.messages import publish
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare, refusing
 from tactile_push.nodes.ros.qos import PUBLISHED
-from tactile_push.parameters.sim_plant import SimPlantParameters, faults, faults_on
-from tactile_push.pipeline.messages import joint_state_fields, pose_fields
-from tactile_push.simulation import Readout, Rig, serve
+from tactile_push.parameters.sim_plant import SimPlantParameters, faults, faults_on, mount
+from tactile_push.pipeline.messages import joint_state_fields, pose_fields, wrench_fields
+from tactile_push.simulation import ForceReadout, Readout, Rig, serve
 from tactile_push.simulation.pace import Pace
 from tactile_push.tactile import Reading
 
@@ -53,6 +55,7 @@ MARKER_RATE = 10.0  # [Hz]; fluent enough to the eye
 REPEAT_PERIOD = 0.01  # of time and reading while time stands still [s]; late by no more; picked
 LOOK_PERIOD = 1.0  # at who commands [s]; as often as diagnostics report it
 JOINTS = (*TOPICS[JOINT_STATES].field_names, WRIST_JOINT)
+WRENCH_FRAME = 'force_sensor'  # of what the simulated one measures
 LONGEST_STEP = 0.1  # a late timer moves the real-time rig no further at once [s]: a control period
 
 
@@ -76,7 +79,7 @@ class PlantNode(Node, Generic[P]):
                 f'got {p.real_time_factor}'
             )
         try:
-            make_rig, beginning = self.rig_maker(p), faults(p)
+            make_rig, beginning, self._mount = self.rig_maker(p), faults(p), mount(p)
         except ValueError as error:
             raise ConfigurationError(str(error)) from None
         with refusing('device'):
@@ -86,8 +89,11 @@ class PlantNode(Node, Generic[P]):
         with compiling(self, self._diagnostics):  # which a refusal above need not wait for
             self._rig = make_rig()
         self._readout = Readout(beginning.sensor, p.seed)
+        self._force_readout = ForceReadout(p.seed)
         self._period = 1.0 / p.sensor_rate
-        self._pace = Pace(p.real_time_factor, 1.0 / p.control_rate, p.command_timeout)
+        self._pace = Pace(
+            p.real_time_factor, 1.0 / p.control_rate, p.command_timeout, p.contact_lag
+        )
         self._steps = 0
         self._sequence = 0
         self._awaited: Reading | None = None  # the last reading, if a contact has to follow
@@ -101,6 +107,9 @@ class PlantNode(Node, Generic[P]):
         self._object_pose = self.create_publisher(PoseStamped, TRUE_POSE, PUBLISHED)
         self._state = self.create_publisher(JointState, TRUE_STATE, PUBLISHED)
         self._markers = self.create_publisher(MarkerArray, MARKERS, 10)
+        self._wrench = (
+            self.create_publisher(WrenchStamped, WRENCH, PUBLISHED) if p.publish_wrench else None
+        )
         self._clock_publisher = None
         if p.publish_clock:
             self._clock_publisher = self.create_publisher(Clock, CLOCK, 10)
@@ -199,6 +208,8 @@ class PlantNode(Node, Generic[P]):
     def _read(self) -> None:
         """Read the sensor and send what it says."""
         self._awaited = None
+        if self._wrench is not None:
+            self._measure_wrench(self._wrench)
         for sample in self._readout.read(self._rig.reading(), self._time):
             if sample.reading is None:
                 self._sequence += 1  # as of a sentence that never arrives
@@ -208,6 +219,14 @@ class PlantNode(Node, Generic[P]):
             if sample.likely:
                 self._awaited = sample.reading
                 self._pace.reading(self._time)
+
+    def _measure_wrench(self, publisher: Publisher) -> None:
+        """Publish what the force/torque sensor measures."""
+        rig, stamp = self._rig, self._stamp()
+        truth = self._mount.wrench(rig.contact_force, rig.theta, rig.psi)
+        wrench = self._force_readout.read(rig.faults.force_sensor, truth, self._time)
+        at = (stamp.sec, stamp.nanosec)
+        publish(publisher, wrench_fields(at, WRENCH_FRAME, wrench.tolist()))
 
     def _send(self, reading: Reading) -> None:
         self._device.send(encode(Sentence(self._sequence, reading)))

@@ -5,7 +5,7 @@
 import math
 
 import pytest
-from geometry_msgs.msg import PoseStamped, TwistStamped
+from geometry_msgs.msg import PoseStamped, TwistStamped, WrenchStamped
 from rclpy.parameter import Parameter as RosParameter
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
@@ -19,6 +19,7 @@ from tactile_push.interface import (
     TOPICS,
     TRUE_POSE,
     TRUE_STATE,
+    WRENCH,
 )
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN
 from tactile_push.nodes.sim_plant import SimPlant
@@ -49,6 +50,17 @@ def test_before_the_first_command_the_belt_stands(bench, plant):
     assert (state['theta'], state['d']) == pytest.approx((0.25, 0.004))
     assert state['finger_x'] == state['belt_travel'] == state['v_x'] == 0.0
     assert bench.health == (OK, 'belt stands, waiting for the first command')
+
+
+def test_force_torque_sensor_feels_the_finger_push(bench, plant):
+    plant(publish_wrench=True, theta_initial=0.0, d_initial=0.0, f_max=2.0)
+    bench.hear(WrenchStamped, WRENCH)
+    bench.until(lambda: len(bench.heard[WRENCH]) > 3)
+    first, *_, last = bench.heard[WRENCH]
+    # The finger points ahead, so the object pushes it back along its pole.
+    assert (last.wrench.force.x, last.wrench.force.z) == pytest.approx((0.0, -2.0), abs=1e-9)
+    assert last.header.frame_id == 'force_sensor'
+    assert stamp_of(first) < stamp_of(last)
 
 
 def test_a_command_moves_the_finger_and_starts_the_belt(bench, plant):

@@ -1,0 +1,35 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""The kinds of sensor that the simulated rig can have."""
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from tactile_push.interface import FORCE_TORQUE, SENSOR_DRIVER, SENTENCE, WRENCH_SENSOR
+
+FILTER = 0.1  # time constant with which the noise below spreads theta by 0.6° [s]
+
+
+class SensorKind(NamedTuple):
+    """A sensor of the simulated rig."""
+
+    node: str  #: which reads it
+    parameters: Mapping[str, Any]  #: of that node
+    plant: Mapping[str, Any]  #: parameters of the plant
+
+
+SENSOR_KINDS = {
+    SENTENCE: SensorKind(SENSOR_DRIVER, {}, {}),
+    FORCE_TORQUE: SensorKind(
+        WRENCH_SENSOR,
+        {'needs_tare': False, 'filter_time_constant': FILTER},  # the finger begins in contact
+        {
+            'publish_wrench': True,
+            'sensor_rate': 100.0,
+            'contact_lag': FILTER,
+            'wrench_noise': 0.05,
+            'wrench_moment_noise': 0.0005,
+        },
+    ),
+}
+"""What each of `interface.SENSORS` needs; a wrench has the noise of a usual sensor."""
