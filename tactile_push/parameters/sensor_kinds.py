@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The kinds of sensor that the simulated rig can have."""
 
-from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from tactile_push.interface import FORCE_TORQUE, SENSOR_DRIVER, SENTENCE, WRENCH_SENSOR
@@ -14,8 +13,8 @@ class SensorKind(NamedTuple):
     """A sensor of the simulated rig."""
 
     node: str  #: which reads it
-    parameters: Mapping[str, Any]  #: of that node
-    plant: Mapping[str, Any]  #: parameters of the plant
+    parameters: dict[str, Any]  #: of that node
+    plant: dict[str, Any]  #: parameters of the plant
 
 
 SENSOR_KINDS = {

@@ -16,7 +16,7 @@ from rosgraph_msgs.msg import Clock
 from tactile_push.testing import NodeProcesses
 
 from .checks import Watch
-from .finger import CHAIN, Finger
+from .finger import Finger
 from .observer import FaultObserver
 from .promise import BrokenPromiseError, Setup
 
@@ -96,7 +96,7 @@ class Bench:
     def start(self) -> None:
         """Start all nodes and the belt."""
         for finger in self.fingers:
-            for node in CHAIN:
+            for node in finger.chain:
                 finger.begin(node)
         for finger in self.fingers:
             finger.activate()

@@ -134,7 +134,9 @@ class Watch:
                     field(m, 'elevation'),
                 )
                 for m in tactile
-                if stamp_of(m) not in finger.foreign and math.isfinite(m.effort[2])
+                if finger.is_numbered
+                and stamp_of(m) not in finger.foreign
+                and math.isfinite(m.effort[2])
             ],
             finger.proxy.sent,
             self._numbers,

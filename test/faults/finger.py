@@ -9,20 +9,31 @@ from collections.abc import Callable
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import WrenchStamped
 from lifecycle_msgs.msg import State
 from rcl_interfaces.msg import ParameterType, ParameterValue
+from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
 from tactile_push.control import PUSHING, STOP_REASONS, TICKS_LOST
+from tactile_push.interface import (
+    CONTACT_GEOMETRY,
+    JOINT_STATES,
+    PUSH_CONTROLLER,
+    SENSOR_DRIVER,
+    SIM_PLANT,
+    WRENCH,
+)
+from tactile_push.parameters.sensor_kinds import SENSOR_KINDS
 from tactile_push.testing import NodeProcesses, Rig, field
 
 from .messages import stamp_of
 from .observer import FaultObserver
 from .promise import BrokenPromiseError, Setup
 from .proxy import DeviceProxy, free_port
-from .relay import JointRelay
+from .relay import Relay
 
-CHAIN = ('sim_plant', 'sensor_driver', 'contact_geometry', 'push_controller')
+RELAYED = {JOINT_STATES: JointState, WRENCH: WrenchStamped}  # what can be spoiled on its way
 DESIRED = math.radians(10.0)  # to both sides in turn, so that the finger stays where it can
 MOVING = 5e-5  # [m/s]
 MOST_THETA = math.radians(25.0)
@@ -48,8 +59,10 @@ class Finger(Rig):
     ----------
     proxy : DeviceProxy
         The device that the driver reads.
-    relay : JointRelay or None
-        What the joint states pass through, if the setup asks for it.
+    relay : Relay
+        What the topic passes through that the setup asks for.
+    chain : tuple of str
+        Its nodes.
     foreign : set of (int, int)
         Stamps of the messages that the tool itself has published.
     diagnostics : Heard
@@ -65,7 +78,10 @@ class Finger(Rig):
         super().__init__(nodes, observer, f'socket://127.0.0.1:{port}', namespace)
         self._setup = setup
         self.proxy = DeviceProxy(port)
-        self.relay = JointRelay(observer, namespace) if setup.relay_joints else None
+        self._sensor = SENSOR_KINDS[setup.sensor]
+        self.chain = (SIM_PLANT, self._sensor.node, CONTACT_GEOMETRY, PUSH_CONTROLLER)
+        if setup.relay:
+            self.relay = Relay(observer, RELAYED[setup.relay], self.name(setup.relay))
         self.foreign: set[tuple[int, int]] = set()
         self._desired = -DESIRED
         self.diagnostics = observer.hear(DiagnosticArray, '/diagnostics')
@@ -74,18 +90,26 @@ class Finger(Rig):
         """Start one of its nodes, with more parameters."""
         parameters: dict[str, Any] = {'use_sim_time': True} if self._setup.own_clock else {}
         arguments: tuple[str, ...] = ()
-        if node == 'sim_plant':
+        if node == self._sensor.node:
+            parameters |= self._sensor.parameters
+        if node == SIM_PLANT:
+            parameters |= self._sensor.plant
             # Balanced, so that an object that is not controlled for a while stays in reach.
             parameters |= {'theta_initial': 0.0, 'd_initial': 0.0}
-            if self.relay is not None:
-                arguments = ('-r', f'joint_states:={self.relay.source}')
-        elif node == 'sensor_driver':
+            if self._setup.relay:
+                arguments = ('-r', f'{self._setup.relay}:={self.relay.source}')
+        elif node == SENSOR_DRIVER:
             parameters['device'] = self.proxy.url
-        elif node == 'push_controller':
+        elif node == PUSH_CONTROLLER:
             parameters['autostart'] = False
             parameters |= dict(self._setup.controller)
         parameters |= more
         self.start_node(node, parameters, arguments)
+
+    @property
+    def is_numbered(self) -> bool:
+        """Whether each reading carries the number under which the device has sent it."""
+        return self._sensor.node == SENSOR_DRIVER
 
     def activate(self) -> None:
         """Activate the controller once there are contacts and its commands will be heard here."""

@@ -9,14 +9,13 @@ from collections.abc import Callable
 
 from sensor_msgs.msg import JointState
 
+from tactile_push.interface import JOINT_STATES
 from tactile_push.nodes.ros.diagnostics import ERROR, WARN
 
 from .bench import Bench, expect
-from .finger import Finger
 from .promise import SILENT, Setup, fault
-from .relay import JointRelay
 
-RELAYED = Setup(relay_joints=True)
+RELAYED = Setup(relay=JOINT_STATES)
 SPOILED = 2.0  # for so long a fault that need not stop the finger lasts [s]
 LATE = 0.5  # [s]
 
@@ -26,29 +25,24 @@ def _stops_and_goes_on(bench: Bench) -> None:
     finger = bench.finger
     bench.stopped(time.monotonic())
     finger.expect_reason('finger position unknown', 'contact silent')
-    _relay(finger).mend()
+    finger.relay.mend()
     finger.wait_until_moving(10.0)
 
 
 def _goes_on(bench: Bench, alter: Callable[[JointState], JointState]) -> None:
     """Spoil the joint states for a while, mend them, and wait for the finger to move again."""
     finger = bench.finger
-    _relay(finger).alter = alter
+    finger.relay.alter = alter
     bench.observer.spin(SPOILED)
     finger.rest_or_push()
-    _relay(finger).mend()
+    finger.relay.mend()
     finger.wait_until_moving()
-
-
-def _relay(finger: Finger) -> JointRelay:
-    assert finger.relay is not None
-    return finger.relay
 
 
 @fault('joint states silent', SILENT, setup=RELAYED)
 def joint_states_silent(bench: Bench) -> None:
     """Finger position unknown, or contact silent; pushes on."""
-    _relay(bench.finger).alter = lambda message: None
+    bench.finger.relay.alter = lambda message: None
     _stops_and_goes_on(bench)
 
 
@@ -56,13 +50,13 @@ def joint_states_silent(bench: Bench) -> None:
 def joint_states_missing(bench: Bench) -> None:
     """A geometry that has never heard any gives no contact; pushes on when they come."""
     finger = bench.finger
-    _relay(finger).alter = lambda message: None
+    finger.relay.alter = lambda message: None
     at = finger.kill('contact_geometry')
     bench.stopped(at)
     finger.begin('contact_geometry')
     finger.expect_level('contact_geometry', WARN, 5.0)
     expect(not finger.contacts.since(at + LATE), 'there are contacts')
-    _relay(finger).mend()
+    finger.relay.mend()
     finger.wait_until_moving(10.0)
 
 
@@ -75,7 +69,7 @@ def joint_states_not_finite(bench: Bench) -> None:
         message.position = [next(values)] * len(message.position)
         return message
 
-    _relay(bench.finger).alter = spoil
+    bench.finger.relay.alter = spoil
     _stops_and_goes_on(bench)
 
 
@@ -87,7 +81,7 @@ def joint_states_of_others(bench: Bench) -> None:
         message.name = ['wheel', 'distal_joint']
         return message
 
-    _relay(bench.finger).alter = rename
+    bench.finger.relay.alter = rename
     _stops_and_goes_on(bench)
 
 
@@ -101,7 +95,7 @@ def joint_states_of_one_joint_each(bench: Bench) -> None:
         message.name, message.position = [message.name[joint]], [message.position[joint]]
         return message
 
-    _relay(bench.finger).alter = split
+    bench.finger.relay.alter = split
     _stops_and_goes_on(bench)
 
 
@@ -131,14 +125,14 @@ def joint_states_without_positions(bench: Bench) -> None:
         message.position = []
         return message
 
-    _relay(bench.finger).alter = empty
+    bench.finger.relay.alter = empty
     _stops_and_goes_on(bench)
 
 
 @fault('joint states late', SILENT, setup=RELAYED)
 def joint_states_late(bench: Bench) -> None:
     """Finger position unknown, or contact silent; pushes on."""
-    _relay(bench.finger).delay = LATE
+    bench.finger.relay.delay = LATE
     _stops_and_goes_on(bench)
 
 

@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from tactile_push.interface import SENTENCE
+
 if TYPE_CHECKING:
     from .bench import Bench
 
@@ -28,8 +30,10 @@ class Setup:
     ----------
     fingers : tuple of str
         Namespace of each finger with its plant; '' is the root. None: only nodes without a bench.
-    relay_joints : bool, optional
-        Whether the joint states pass through the tool, which can spoil them.
+    relay : str, optional
+        The topic whose messages pass through the tool, which can spoil them; '' for none.
+    sensor : str, optional
+        What the fingers feel with, one of `interface.SENSORS`.
     own_clock : bool, optional
         Whether the tool publishes /clock and all nodes live by it.
     controller : tuple of (str, object), optional
@@ -37,7 +41,8 @@ class Setup:
     """
 
     fingers: tuple[str, ...] = ('',)
-    relay_joints: bool = False
+    relay: str = ''
+    sensor: str = SENTENCE
     own_clock: bool = False
     controller: tuple[tuple[str, Any], ...] = ()
 

@@ -29,7 +29,7 @@ from tactile_push.devices import Sentence, SentenceStream, encode
 from tactile_push.parameters import Parameter
 from tactile_push.tactile import NO_CONTACT, Reading
 
-OTHER = Setup(relay_joints=True)
+OTHER = Setup(relay='joint_states')
 
 
 class FakeBench:
