@@ -6,6 +6,7 @@ import importlib
 import itertools
 import json
 import math
+import re
 import socket
 import sys
 import time
@@ -30,6 +31,8 @@ from tactile_push.parameters import Parameter
 from tactile_push.tactile import NO_CONTACT, Reading
 
 OTHER = Setup(relay='joint_states')
+TRIES = 5  # of a row on a busy machine
+LATE = re.compile(r'^\d+ ms, more than|; the machine stood still for')
 
 
 class FakeBench:
@@ -499,8 +502,13 @@ def real():
 @pytest.mark.parametrize('name', ['driver killed', 'device unplugged', 'another command'])
 def test_real_row_is_held(real, name):
     (fault,) = [fault for fault in FAULTS if fault.name == name]
-    outcome = real.run(fault)
-    assert outcome.broken == []
+    for _ in range(TRIES):
+        outcome = real.run(fault)
+        if outcome.held:
+            break
+        # A busy machine may make the nodes late. It never makes them do anything else wrong.
+        assert {'late' if LATE.search(words) else words for words in outcome.broken} == {'late'}
+    assert outcome.held
     assert 0.0 < outcome.reaction_ms < outcome.within_ms
 
 
