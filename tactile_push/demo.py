@@ -136,7 +136,7 @@ def _run_rig(
             nodes.start(kind.node, {**read_from, **kind.parameters, **simulated})
             nodes.start(CONTACT_GEOMETRY, simulated, config=config)
             nodes.start(PUSH_CONTROLLER, {'autostart': False, **simulated}, config=config)
-            nodes.start(ACTIVE_SENSING, simulated, config=config)
+            nodes.start(ACTIVE_SENSING, {**kind.sensing, **simulated}, config=config)
             nodes.start(EXPERIMENT, {'bag': str(bag), 'steps': STEPS, **simulated})
             _follow(nodes, progress)
     return time.monotonic() - start

@@ -2,11 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """The kinds of sensor that the simulated rig can have."""
 
+import math
 from typing import Any, NamedTuple
 
 from tactile_push.interface import FORCE_TORQUE, SENSOR_DRIVER, SENTENCE, WRENCH_SENSOR
 
 FILTER = 0.1  # time constant with which the noise below spreads theta by 0.6° [s]
+
+# What it is worth as noise that each control period has anew [rad]: of two periods' noise exp(-1)
+# is common, so that the mean of many spreads by sqrt((e + 1)/(e - 1)) = 1.47 times as much.
+FILTERED = 1.47 * math.radians(0.6)
 
 
 class SensorKind(NamedTuple):
@@ -15,10 +20,11 @@ class SensorKind(NamedTuple):
     node: str  #: which reads it
     parameters: dict[str, Any]  #: of that node
     plant: dict[str, Any]  #: parameters of the plant
+    sensing: dict[str, Any]  #: parameters of active_sensing
 
 
 SENSOR_KINDS = {
-    SENTENCE: SensorKind(SENSOR_DRIVER, {}, {}),
+    SENTENCE: SensorKind(SENSOR_DRIVER, {}, {}, {}),
     FORCE_TORQUE: SensorKind(
         WRENCH_SENSOR,
         {'needs_tare': False, 'filter_time_constant': FILTER},  # the finger begins in contact
@@ -29,6 +35,7 @@ SENSOR_KINDS = {
             'wrench_noise': 0.05,
             'wrench_moment_noise': 0.0005,
         },
+        {'noise': FILTERED},
     ),
 }
 """What each of `interface.SENSORS` needs; a wrench has the noise of a usual sensor."""

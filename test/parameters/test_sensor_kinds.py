@@ -3,7 +3,12 @@
 import pytest
 
 from tactile_push.interface import FORCE_TORQUE, SENSORS
-from tactile_push.parameters import PARAMETERS, MujocoPlantParameters, SimPlantParameters
+from tactile_push.parameters import (
+    PARAMETERS,
+    ActiveSensingParameters,
+    MujocoPlantParameters,
+    SimPlantParameters,
+)
 from tactile_push.parameters.sensor_kinds import SENSOR_KINDS
 
 
@@ -18,6 +23,7 @@ def test_nodes_and_plants_take_what_a_kind_needs(name):
         (PARAMETERS[kind.node], kind.parameters),
         (SimPlantParameters, kind.plant),
         (MujocoPlantParameters, kind.plant),
+        (ActiveSensingParameters, kind.sensing),
     ):
         made = node.of(given)
         assert {name: getattr(made, name) for name in given} == given
