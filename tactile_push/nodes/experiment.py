@@ -21,6 +21,7 @@ from tactile_push.interface import (
     PARAMETER_EVENTS,
     RECORDED,
     SENSING_STATE,
+    WRENCH,
 )
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare, refusing
 from tactile_push.nodes.ros.process import run
@@ -28,7 +29,8 @@ from tactile_push.parameters import ExperimentParameters
 from tactile_push.recording.recording import Recording
 
 # Without these recorded from the beginning no experiment starts.
-AWAITED = tuple(topic for topic in RECORDED if topic not in (CLOCK, PARAMETER_EVENTS))
+MORE = (WRENCH,)  # of nodes that not every experiment has
+AWAITED = tuple(topic for topic in RECORDED if topic not in (CLOCK, PARAMETER_EVENTS, *MORE))
 LOOK_PERIOD = 0.05  # at the recorder and the answers [s]; short beside the start of a node
 
 
@@ -91,11 +93,15 @@ class Experiment(Node):
         contact = self.resolve_topic_name(CONTACT)
         state = self.resolve_topic_name(CONTROLLER_STATE)
         return (
-            self._awaited.isdisjoint(self._recording.recorder.missing())
+            (self._awaited | self._more()).isdisjoint(self._recording.recorder.missing())
             and self._recording.recorder.counts[contact] > 0
             and self.count_subscribers(contact) > 1
             and self.count_subscribers(state) > 1
         )
+
+    def _more(self) -> set[str]:
+        """Return the topics of nodes that not every experiment has and this one does."""
+        return {self.resolve_topic_name(topic) for topic in MORE if self.count_publishers(topic)}
 
     def _report(self) -> None:
         # What is sensed comes last; on a loaded machine it may lag behind.

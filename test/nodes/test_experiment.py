@@ -9,7 +9,7 @@ from sensor_msgs.msg import JointState
 
 from tactile_push.bags import BagReader
 from tactile_push.interface import RECORDED, TACTILE
-from tactile_push.nodes.experiment import AWAITED, Experiment
+from tactile_push.nodes.experiment import AWAITED, MORE, Experiment
 from tactile_push.nodes.ros.parameters import ConfigurationError
 
 
@@ -27,8 +27,8 @@ class Controller:
         return response
 
 
-def test_all_that_is_recorded_is_awaited_but_time_and_parameters():
-    assert set(RECORDED) - set(AWAITED) == {'/clock', '/parameter_events'}
+def test_all_that_every_experiment_has_is_awaited_but_time_and_parameters():
+    assert set(RECORDED) - set(AWAITED) == {'/clock', '/parameter_events', *MORE}
 
 
 def test_the_controller_is_configured_and_not_activated_before_all_is_recorded(bench, tmp_path):
