@@ -30,6 +30,7 @@ setup(
         (f'share/{NAME}', ['package.xml']),
         (f'share/{NAME}/config', glob('config/*')),
         (f'share/{NAME}/launch', glob('launch/*')),
+        (f'share/{NAME}/urdf', glob('urdf/*')),
     ],
     install_requires=[
         'lz4>=4.3,<5',
@@ -72,6 +73,7 @@ setup(
             'rosbags>=0.10,<1',
             'ruff>=0.8,<1',
             'setuptools<80',
+            'xacro>=2,<3',
         ],
     },
     zip_safe=False,

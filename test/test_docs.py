@@ -13,6 +13,8 @@ import yaml
 
 import tactile_push.mechanics
 from tactile_push.devices import decode
+from tactile_push.launching import FingerArguments
+from tactile_push.launching.plan import LAUNCH_SECTION
 from tactile_push.parameters import PARAMETERS
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -56,8 +58,9 @@ def test_documentation_builds_without_a_warning(tmp_path: Path):
 
 @pytest.mark.parametrize('file', sorted((ROOT / 'config').glob('*.yaml')), ids=lambda f: f.stem)
 def test_parameter_files_name_parameters_of_their_nodes_within_their_ranges(file):
+    kinds = {**PARAMETERS, LAUNCH_SECTION: FingerArguments}
     for key, content in yaml.safe_load(file.read_text()).items():
-        declared = {p.name: p for p in PARAMETERS[key.removeprefix('/**/')].declared()}
+        declared = {p.name: p for p in kinds[key.removeprefix('/**/')].declared()}
         for name, value in content['ros__parameters'].items():
             assert type(value) is type(declared[name].default)
             if isinstance(value, float):

@@ -108,6 +108,7 @@ KEYS = {
     'mcap': 'mcap-ros2-support',
     'mcap_ros2': 'mcap-ros2-support',
     'mpl_toolkits': 'python3-matplotlib',
+    'xacro': 'xacro',
     'zstandard': 'mcap-ros2-support',
 }
 NO_KEY = {'mujoco', 'plotly'}  # the manual says how to install it
@@ -123,7 +124,7 @@ def test_setup_requires_what_the_package_imports_and_nothing_else(setup):
     pytest.importorskip('plotly')
     projects = packages_distributions()
     modules = {name for name in foreign(ROOT) if not ROS.fullmatch(name)}
-    modules -= {'pytest', 'mujoco'}  # of the extras
+    modules -= {'pytest', 'mujoco', 'xacro'}  # of the extras
     needed = {projects[name][0].lower().replace('_', '-') for name in modules}
     assert installed(setup['install_requires']) == needed
     assert installed(setup['extras_require']['mujoco']) == {'mujoco'}

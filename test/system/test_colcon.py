@@ -49,8 +49,11 @@ def test_colcon_build_gives_runnable_executables(tmp_path: Path):
         'package.xml',
         'config/block.yaml',
         'config/disk.yaml',
+        'config/hardware.yaml',
         'config/loopback.xml',
         'launch/demo.launch.py',
+        'launch/finger.launch.py',
+        'urdf/finger.urdf.xacro',
     ):
         assert (share / file).exists(), file
     assert (install / 'share/ament_index/resource_index/packages/tactile_push').exists()

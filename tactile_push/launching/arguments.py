@@ -1,0 +1,157 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""The arguments of the launch files, declared like the parameters of nodes."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import yaml
+
+from tactile_push import paper
+from tactile_push.interface import PLANTS, SENSOR_DRIVER, SIM_PLANT
+from tactile_push.parameters import PushControllerParameters, SimPlantParameters, shared
+from tactile_push.parameters.parameter import NodeParameters, Parameter, parameter
+
+SENSORS = {'sentence': SENSOR_DRIVER}
+"""The nodes that give `tactile`, by the kind of sensor that they read."""
+
+ROBOTS = JOINTS, _ = ('finger', 'none')
+OBJECTS = (paper.BLOCK, paper.DISK)
+LAW, PLANT = PushControllerParameters(), SimPlantParameters()
+
+
+@dataclass(frozen=True)
+class LaunchArguments(NodeParameters):
+    """Values of a launch file's arguments; each subclass declares those of one launch file."""
+
+    FROM_FILE: ClassVar[bool] = False  # whether a file says what is not given
+
+    @classmethod
+    def read(cls, texts: Mapping[str, str]) -> dict[str, Any]:
+        """Read the arguments as a command line gives them.
+
+        Parameters
+        ----------
+        texts : mapping of str to str
+            Texts by argument. One that is empty was not given.
+
+        Returns
+        -------
+        dict of str to object
+            Values of the arguments that were given.
+
+        Raises
+        ------
+        ValueError
+            If a text is no value of its argument.
+        """
+        return {
+            known.name: _value(known, texts[known.name])
+            for known in cls.declared()
+            if texts.get(known.name)
+        }
+
+
+@dataclass(frozen=True)
+class DemoArguments(LaunchArguments):
+    """What `demo.launch.py` can be told: the object, who simulates it, and how."""
+
+    # fmt: off
+    object: str = parameter(paper.BLOCK, '', "the paper's object to push", choices=OBJECTS)
+    plant: str = parameter(SIM_PLANT, '', 'which node simulates', choices=PLANTS)
+    kp: float = parameter(LAW.kp, 'rad/rad',
+        'proportional gain of the control law', 0.0, 100.0)
+    kd: float = parameter(LAW.kd, 'rad/rad',
+        'derivative gain of the control law', 0.0, 1000.0)
+    real_time_factor: float = parameter(PLANT.real_time_factor, 's/s',
+        'simulated seconds a second, at the most', 0.01, 100.0)
+    device: str = parameter(PLANT.device, '', 'where the simulated sensor and the driver meet')
+    rviz: bool = parameter(True, '', 'start RViz')
+    # fmt: on
+
+
+@dataclass(frozen=True)
+class FingerArguments(LaunchArguments):
+    """What `finger.launch.py` can be told, and `config/hardware.yaml` says below `finger_launch`.
+
+    The second half are facts about the machine. Each node that declares a parameter of that name
+    gets the value, and so does the robot description: no two of them can disagree.
+    """
+
+    FROM_FILE: ClassVar[bool] = True
+
+    # fmt: off
+    config: str = parameter('', '',
+        "parameter file of the machine; empty for the package's config/hardware.yaml")
+    sensor: str = parameter('sentence', '',
+        'kind of sensor in the finger tip', choices=tuple(SENSORS))
+    calibration: str = parameter('', '',
+        "parameter file of the sensor's node that a calibration wrote; empty if it needs none")
+    robot: str = parameter(JOINTS, '',
+        'what moves the tip: finger is the finger of two joints, whose description is published; '
+        'none is a machine without joint angles, whose tip does not turn', choices=ROBOTS)
+    object: str = parameter(paper.BLOCK, '',
+        f"what is pushed: {' or '.join(OBJECTS)} of the paper, or a parameter file of one's own")
+    namespace: str = parameter('', '', 'namespace of all nodes; a second finger needs one')
+    sim: bool = parameter(False, '',
+        'let sim_plant take the place of the machine, on simulated time and this computer alone')
+    record: bool = parameter(False, '', 'record the topics into a bag')
+    rviz: bool = parameter(False, '', 'start RViz')
+    belt_speed: float = shared.belt_speed
+    finger_radius: float = shared.finger_radius
+    proximal_length: float = shared.proximal_length
+    distal_length: float = shared.distal_length
+    mount_angle: float = shared.mount_angle
+    joint_names: list[str] = parameter(shared.JOINT_NAMES, '',
+        'the two moving joints of the finger in joint_states from the base to the tip, and a wrist '
+        'that holds the tip straight if there is one')
+    joint_min: list[float] = parameter([-math.pi] * 2, 'rad', 'least angle of each of the two')
+    joint_max: list[float] = parameter([math.pi] * 2, 'rad', 'greatest angle of each of the two')
+    joint_speed: list[float] = parameter([1.0] * 2, 'rad/s', 'greatest speed of each of the two')
+    # fmt: on
+
+    def __post_init__(self) -> None:
+        if not len(self.joint_names) == len(set(self.joint_names)) in (2, 3):
+            raise ValueError(
+                f'joint_names: expected two or three different names, got {self.joint_names}'
+            )
+        for name in ('joint_min', 'joint_max', 'joint_speed'):
+            if len(getattr(self, name)) != 2:
+                raise ValueError(f'{name}: expected two numbers, got {getattr(self, name)}')
+
+    @property
+    def machine(self) -> dict[str, Any]:
+        """Facts about the machine by name, for whoever declares a parameter of that name."""
+        return {name: getattr(self, name) for name in MACHINE}
+
+
+MACHINE = (
+    'belt_speed',
+    'finger_radius',
+    'proximal_length',
+    'distal_length',
+    'mount_angle',
+    'joint_names',
+    'joint_min',
+    'joint_max',
+    'joint_speed',
+)
+
+
+def _value(known: Parameter, text: str) -> Any:
+    """Return the value that a text is; ValueError if it is none of the argument's."""
+    value: Any = text
+    try:
+        if isinstance(known.default, bool):
+            value = {'true': True, 'false': False}[text.lower()]
+        elif isinstance(known.default, float):
+            value = float(text)
+        elif isinstance(known.default, list):
+            value = yaml.safe_load(text)
+    except (KeyError, ValueError, yaml.YAMLError):
+        value = None
+    if not known.takes(value):
+        raise ValueError(f'argument {known.name}: expected {known.expected()}, got {text!r}')
+    return value

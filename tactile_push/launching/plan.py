@@ -1,0 +1,242 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which programs a launch file starts, and with which parameters.
+
+Everything is read and checked here, before anything is started. A node's values come from the
+object's file, the machine's file, the sensor's calibration and then the launch file itself; of two
+values for the same parameter the later one counts.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from tactile_push.interface import (
+    ACTIVE_SENSING,
+    BAG_RECORDER,
+    CONTACT_GEOMETRY,
+    FINGER_DISK,
+    PLANTS,
+    PUSH_CONTROLLER,
+    SIM_PLANT,
+    STRAIGHT,
+    WRIST_JOINT,
+)
+from tactile_push.launching.arguments import (
+    JOINTS,
+    MACHINE,
+    OBJECTS,
+    SENSORS,
+    DemoArguments,
+    FingerArguments,
+)
+from tactile_push.launching.robot import robot_description
+from tactile_push.parameters import PARAMETERS, config_file, shared
+from tactile_push.parameters.ros_file import Sections, matches, read_sections
+from tactile_push.parameters.slips import meant
+
+OWN_PACKAGE = 'tactile_push'
+STATE_PUBLISHER, RVIZ = 'robot_state_publisher', 'rviz2'
+LAUNCH_SECTION = 'finger_launch'  # of the machine's file, for the launch file and no node
+# tf in the finger's own namespace: two fingers name their frames alike.
+OWN_TF = (('/tf', 'tf'), ('/tf_static', 'tf_static'))
+
+
+@dataclass(frozen=True)
+class Program:
+    """A program that a launch file starts."""
+
+    package: str  #: ROS package that has it
+    executable: str  #: its name, which its node has too
+    parameters: Mapping[str, Any]  #: values of the node's parameters by name
+    arguments: tuple[str, ...] = ()  #: on its command line, before those of ROS
+    remappings: tuple[tuple[str, str], ...] = ()  #: names of topics, and what they become
+    without: str = ''  #: argument of the launch file that leaves it out; '' if none does
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a launch file starts."""
+
+    programs: tuple[Program, ...]  #: in the order in which they start
+    namespace: str  #: of all nodes
+    simulated: bool  #: whether the nodes talk on this machine alone
+
+
+def demo_plan(texts: Mapping[str, str]) -> Plan:
+    """Plan the demonstration.
+
+    Parameters
+    ----------
+    texts : mapping of str to str
+        Arguments of `demo.launch.py`; one that is empty was not given.
+
+    Returns
+    -------
+    Plan
+        The plan.
+
+    Raises
+    ------
+    ValueError
+        If an argument is refused.
+    """
+    p = DemoArguments.of(DemoArguments.read(texts))
+    values = {
+        **{'kp': p.kp, 'kd': p.kd, 'device': p.device, 'real_time_factor': p.real_time_factor},
+        **{'publish_clock': True, 'use_sim_time': True},
+    }
+    machine = FingerArguments().machine
+    files = [_read_file(config_file(f'{p.object}.yaml'))]
+    nodes = [p.plant, SENSORS['sentence'], *_LOOP]
+    shown = _shown(machine, values, rviz=p.rviz)
+    return Plan((*shown, *(_node(node, '', files, values) for node in nodes)), '', simulated=True)
+
+
+def finger_plan(texts: Mapping[str, str]) -> Plan:
+    """Plan what runs a finger on a machine, or its simulation.
+
+    Parameters
+    ----------
+    texts : mapping of str to str
+        Arguments of `finger.launch.py`; one that is empty was not given.
+
+    Returns
+    -------
+    Plan
+        The plan.
+
+    Raises
+    ------
+    ValueError
+        If an argument or a file is refused.
+    """
+    given = FingerArguments.read(texts)
+    file = Path(given.get('config') or config_file('hardware.yaml'))
+    hardware = _read_file(file)
+    p = FingerArguments.of({**_launch_values(hardware, file), **given})
+    pushed = _object_file(p)
+    files = [_read_file(pushed), hardware]
+    if p.calibration:
+        files.append(_read_file(Path(p.calibration)))
+    values: dict[str, Any] = dict(p.machine)
+    nodes = [SENSORS[p.sensor], *_LOOP]
+    if p.robot != JOINTS:
+        values |= {'use_joint_states': False, 'without_psi': STRAIGHT}
+    if p.sim:
+        # As the plant names its joints, whatever those of the machine are called.
+        values['joint_names'] = [*shared.JOINT_NAMES, WRIST_JOINT][: len(p.joint_names)]
+        values |= {'device': shared.DEVICE, 'publish_clock': True, 'use_sim_time': True}
+        values['tip_turns'] = p.robot == JOINTS and len(p.joint_names) == 2
+        nodes.insert(0, SIM_PLANT)
+        if not any(_own_name(section) == SIM_PLANT for section in files[0]):
+            raise ValueError(
+                f'{pushed}: expected a section of {SIM_PLANT} that describes the object'
+            )
+    if p.record:
+        nodes.append(BAG_RECORDER)
+    shown = _shown(values if p.robot == JOINTS else None, values, rviz=p.rviz)
+    programs = (*shown, *(_node(node, p.namespace, files, values) for node in nodes))
+    return Plan(programs, p.namespace, p.sim)
+
+
+_LOOP = (CONTACT_GEOMETRY, PUSH_CONTROLLER, ACTIVE_SENSING)
+
+
+def _node(node: str, namespace: str, files: list[Sections], values: Mapping[str, Any]) -> Program:
+    """Return a node of the package with all values that it takes; ValueError if it refuses one."""
+    kind = PARAMETERS[node]
+    declared = {known.name for known in kind.declared()}
+    full_name = '/'.join(('', *filter(None, namespace.split('/')), node))
+    given: dict[str, Any] = {}
+    for sections in files:
+        for section, entries in sections.items():
+            if matches(section, full_name):
+                given |= entries
+    given |= {name: value for name, value in values.items() if name in declared}
+    if node not in PLANTS:  # which make the simulated time
+        given |= _time(values)
+    try:
+        for name in given:
+            if similar := meant(name, declared) if name not in declared else '':
+                raise ValueError(f'parameter {name}: unknown, did you mean {similar}?')
+        kind.of(given)
+    except ValueError as error:
+        raise ValueError(f'{node}: {error}') from None
+    return Program(OWN_PACKAGE, node, given)
+
+
+def _shown(
+    machine: Mapping[str, Any] | None, values: Mapping[str, Any], *, rviz: bool
+) -> list[Program]:
+    """Return what publishes the finger's description and frames, if it has joints, and RViz."""
+    time = _time(values)
+    shown = []
+    if rviz:
+        arguments = ['-d', str(config_file('demo.rviz'))]
+        if machine is None:  # nothing publishes frames
+            arguments += ['--fixed-frame', FINGER_DISK]
+        shown.append(Program(RVIZ, RVIZ, time, tuple(arguments), OWN_TF, without='rviz:=false'))
+    if machine is not None:
+        described = {'robot_description': robot_description(machine), **time}
+        shown.append(Program(STATE_PUBLISHER, STATE_PUBLISHER, described, (), OWN_TF))
+    return shown
+
+
+def _time(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what tells a node which time to use."""
+    return {'use_sim_time': True} if values.get('use_sim_time') else {}
+
+
+def _object_file(p: FingerArguments) -> Path:
+    """Return the parameter file of the object."""
+    if p.object in OBJECTS:
+        return config_file(f'{p.object}.yaml')
+    if not p.object.endswith(('.yaml', '.yml')):
+        kinds = ', '.join(OBJECTS)
+        raise ValueError(f'argument object: expected {kinds} or a YAML file, got {p.object!r}')
+    return Path(p.object)
+
+
+def _launch_values(hardware: Sections, file: Path) -> dict[str, Any]:
+    """Return what the machine's file says for the launch file itself."""
+    values: dict[str, Any] = {}
+    for section, entries in hardware.items():
+        if _own_name(section) == LAUNCH_SECTION:
+            values |= entries
+    known = {one.name: one for one in FingerArguments.declared() if one.name != 'config'}
+    for name, value in values.items():
+        try:
+            if name not in known:
+                raise ValueError(f'parameter {name}: expected one of {", ".join(known)}')
+            known[name].check(value)
+        except ValueError as error:
+            raise ValueError(f'{file}: {LAUNCH_SECTION}: {error}') from None
+    return values
+
+
+def _read_file(file: Path) -> Sections:
+    """Read a parameter file; ValueError if a node would not find there what is meant for it."""
+    try:
+        sections = read_sections(file)
+    except OSError as error:
+        raise ValueError(f'{file}: {error.strerror}') from None
+    for section, entries in sections.items():
+        name = _own_name(section)
+        if name == LAUNCH_SECTION:
+            continue
+        if name not in (*PARAMETERS, '*', '**'):
+            raise ValueError(f'{file}: {section}: expected {LAUNCH_SECTION} or a node')
+        for fact in MACHINE:
+            if fact in entries:
+                raise ValueError(
+                    f'{file}: {section}: {fact}: expected below {LAUNCH_SECTION} in the file of '
+                    'the machine, from where all nodes get it'
+                )
+    return sections
+
+
+def _own_name(section: str) -> str:
+    """Return the node's name in a section's, without its namespace."""
+    return section.rpartition('/')[2]
