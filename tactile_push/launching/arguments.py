@@ -10,12 +10,9 @@ from typing import Any, ClassVar
 import yaml
 
 from tactile_push import paper
-from tactile_push.interface import PLANTS, SENSOR_DRIVER, SIM_PLANT
+from tactile_push.interface import PLANTS, SENSORS, SENTENCE, SIM_PLANT
 from tactile_push.parameters import PushControllerParameters, SimPlantParameters, shared
 from tactile_push.parameters.parameter import NodeParameters, Parameter, parameter
-
-SENSORS = {'sentence': SENSOR_DRIVER}
-"""The nodes that give `tactile`, by the kind of sensor that they read."""
 
 ROBOTS = JOINTS, _ = ('finger', 'none')
 OBJECTS = (paper.BLOCK, paper.DISK)
@@ -85,8 +82,7 @@ class FingerArguments(LaunchArguments):
     # fmt: off
     config: str = parameter('', '',
         "parameter file of the machine; empty for the package's config/hardware.yaml")
-    sensor: str = parameter('sentence', '',
-        'kind of sensor in the finger tip', choices=tuple(SENSORS))
+    sensor: str = parameter(SENTENCE, '', 'kind of sensor in the finger tip', choices=SENSORS)
     calibration: str = parameter('', '',
         "parameter file of the sensor's node that a calibration wrote; empty if it needs none")
     robot: str = parameter(JOINTS, '',

@@ -19,21 +19,23 @@ from tactile_push.interface import (
     FINGER_DISK,
     PLANTS,
     PUSH_CONTROLLER,
+    SENTENCE,
     SIM_PLANT,
     STRAIGHT,
+    WRENCH_SENSOR,
     WRIST_JOINT,
 )
 from tactile_push.launching.arguments import (
     JOINTS,
     MACHINE,
     OBJECTS,
-    SENSORS,
     DemoArguments,
     FingerArguments,
 )
 from tactile_push.launching.robot import robot_description
 from tactile_push.parameters import PARAMETERS, config_file, shared
 from tactile_push.parameters.ros_file import Sections, matches, read_sections
+from tactile_push.parameters.sensor_kinds import SENSOR_KINDS
 from tactile_push.parameters.slips import meant
 
 OWN_PACKAGE = 'tactile_push'
@@ -89,7 +91,7 @@ def demo_plan(texts: Mapping[str, str]) -> Plan:
     }
     machine = FingerArguments().machine
     files = [_read_file(config_file(f'{p.object}.yaml'))]
-    nodes = [p.plant, SENSORS['sentence'], *_LOOP]
+    nodes = [p.plant, SENSOR_KINDS[SENTENCE].node, *_LOOP]
     shown = _shown(machine, values, rviz=p.rviz)
     return Plan((*shown, *(_node(node, '', files, values) for node in nodes)), '', simulated=True)
 
@@ -118,34 +120,55 @@ def finger_plan(texts: Mapping[str, str]) -> Plan:
     p = FingerArguments.of({**_launch_values(hardware, file), **given})
     pushed = _object_file(p)
     files = [_read_file(pushed), hardware]
+    kind = SENSOR_KINDS[p.sensor]
+    # Of a hard tip the hemisphere has the disk's radius; a file may know better.
+    files.insert(0, {f'/**/{WRENCH_SENSOR}': {'tip_radius': p.finger_radius}})
     if p.calibration:
         files.append(_read_file(Path(p.calibration)))
     values: dict[str, Any] = dict(p.machine)
-    nodes = [SENSORS[p.sensor], *_LOOP]
     if p.robot != JOINTS:
         values |= {'use_joint_states': False, 'without_psi': STRAIGHT}
     if p.sim:
         # As the plant names its joints, whatever those of the machine are called.
         values['joint_names'] = [*shared.JOINT_NAMES, WRIST_JOINT][: len(p.joint_names)]
-        values |= {'device': shared.DEVICE, 'publish_clock': True, 'use_sim_time': True}
-        values['tip_turns'] = p.robot == JOINTS and len(p.joint_names) == 2
-        nodes.insert(0, SIM_PLANT)
-        if not any(_own_name(section) == SIM_PLANT for section in files[0]):
+        values |= {'device': shared.DEVICE, 'use_sim_time': True}
+    own = kind.parameters if p.sim else {}
+    nodes = [_node(kind.node, p.namespace, files, values, own)]
+    nodes += [_node(node, p.namespace, files, values) for node in _LOOP]
+    if p.sim:
+        if not any(_own_name(section) == SIM_PLANT for section in _read_file(pushed)):
             raise ValueError(
                 f'{pushed}: expected a section of {SIM_PLANT} that describes the object'
             )
+        turns = p.robot == JOINTS and len(p.joint_names) == 2
+        own = {'publish_clock': True, 'tip_turns': turns, **kind.plant, **_mount(nodes[0])}
+        nodes.insert(0, _node(SIM_PLANT, p.namespace, files, values, own))
     if p.record:
-        nodes.append(BAG_RECORDER)
+        nodes.append(_node(BAG_RECORDER, p.namespace, files, values))
     shown = _shown(values if p.robot == JOINTS else None, values, rviz=p.rviz)
-    programs = (*shown, *(_node(node, p.namespace, files, values) for node in nodes))
-    return Plan(programs, p.namespace, p.sim)
+    return Plan((*shown, *nodes), p.namespace, p.sim)
 
 
 _LOOP = (CONTACT_GEOMETRY, PUSH_CONTROLLER, ACTIVE_SENSING)
 
 
-def _node(node: str, namespace: str, files: list[Sections], values: Mapping[str, Any]) -> Program:
-    """Return a node of the package with all values that it takes; ValueError if it refuses one."""
+def _mount(sensor: Program) -> dict[str, Any]:
+    """Return where the tip sits on its force/torque sensor, so that a simulated one is alike."""
+    names = ('tip_xyz', 'tip_rpy')
+    return {name: sensor.parameters[name] for name in names if name in sensor.parameters}
+
+
+def _node(
+    node: str,
+    namespace: str,
+    files: list[Sections],
+    values: Mapping[str, Any],
+    own: Mapping[str, Any] | None = None,
+) -> Program:
+    """Return a node of the package with its values; ValueError if it refuses one.
+
+    It gets what the files say for it, of `values` what it declares, and all of its `own`.
+    """
     kind = PARAMETERS[node]
     declared = {known.name for known in kind.declared()}
     full_name = '/'.join(('', *filter(None, namespace.split('/')), node))
@@ -154,7 +177,7 @@ def _node(node: str, namespace: str, files: list[Sections], values: Mapping[str,
         for section, entries in sections.items():
             if matches(section, full_name):
                 given |= entries
-    given |= {name: value for name, value in values.items() if name in declared}
+    given |= {name: value for name, value in values.items() if name in declared} | (own or {})
     if node not in PLANTS:  # which make the simulated time
         given |= _time(values)
     try:

@@ -124,6 +124,25 @@ def test_later_file_counts_more_and_arguments_most(own):
     assert plan.namespace == 'left'
 
 
+def test_force_torque_sensor_has_the_tip_of_the_machine_and_a_simulated_one_the_same(own):
+    machine = own(finger_launch={'sensor': 'wrench', 'finger_radius': 0.02})
+    tip = own('tip.yaml', wrench_sensor={'tip_xyz': [0.0, 0.001, 0.03]})
+    plan = finger_plan({'config': machine, 'calibration': tip})
+    assert names(plan) == ['robot_state_publisher', 'wrench_sensor', *LOOP]
+    reader = values(plan, 'wrench_sensor')
+    assert (reader['tip_radius'], reader['tip_xyz']) == (0.02, [0.0, 0.001, 0.03])
+    assert 'needs_tare' not in reader
+    plant = values(finger_plan({'config': machine, 'calibration': tip, 'sim': 'true'}), 'sim_plant')
+    assert (plant['finger_radius'], plant['tip_xyz']) == (0.02, [0.0, 0.001, 0.03])
+    assert plant['publish_wrench']
+
+
+def test_file_may_know_better_than_the_machine_what_radius_touches(own):
+    tip = own('tip.yaml', wrench_sensor={'tip_radius': 0.019})
+    plan = finger_plan({'sensor': 'wrench', 'calibration': tip})
+    assert values(plan, 'wrench_sensor')['tip_radius'] == 0.019
+
+
 def test_section_of_another_namespace_is_for_another_finger(tmp_path):
     file = tmp_path / 'two.yaml'
     file.write_text(

