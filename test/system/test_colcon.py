@@ -12,6 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 EXECUTABLES = {
     'tactile_push',
     'sensor_driver',
+    'wrench_sensor',
     'contact_geometry',
     'active_sensing',
     'push_controller',
