@@ -177,7 +177,8 @@ def _node(
         for section, entries in sections.items():
             if matches(section, full_name):
                 given |= entries
-    given |= {name: value for name, value in values.items() if name in declared} | (own or {})
+    given |= {name: value for name, value in values.items() if name in declared}
+    given |= own or {}
     if node not in PLANTS:  # which make the simulated time
         given |= _time(values)
     try:
