@@ -17,6 +17,7 @@ import signal
 import socket
 import subprocess
 import sys
+import threading
 from collections.abc import Mapping
 from typing import IO
 
@@ -132,14 +133,26 @@ def serve(requests: socket.socket) -> int:
 
 
 def _watch_a_copy(reported: socket.socket) -> None:
-    """Return in a copy of this process; wait for its end, report how it ended, and end."""
+    """Return in a copy of this process; wait for its end, report how it ended, and end.
+
+    The copy ends, too, when whoever asked for it has ended, however that ended.
+    """
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     copy = os.fork()
     if copy:
+        arguments = reported, copy
+        threading.Thread(target=_end_with_the_asker, args=arguments, daemon=True).start()
         _, status = os.waitpid(copy, 0)
         with contextlib.suppress(BrokenPipeError):  # whoever asked for the node may be gone
             reported.send(b'status %d' % os.waitstatus_to_exitcode(status))
         os._exit(0)
+
+
+def _end_with_the_asker(reported: socket.socket, copy: int) -> None:
+    """Wait until nobody listens to the report any more, and end the copy as a manager would."""
+    with contextlib.suppress(OSError):
+        reported.recv(1)
+    os.kill(copy, signal.SIGTERM)
 
 
 def _load_machine_code() -> None:

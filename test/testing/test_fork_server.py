@@ -132,3 +132,21 @@ def test_end_of_a_node_that_nobody_waits_for_is_told_to_nobody():
     )
     done = subprocess.run([sys.executable, '-c', program], capture_output=True, timeout=PATIENCE)
     assert (done.returncode, done.stderr) == (0, b'')
+
+
+def test_node_ends_with_whoever_started_it_even_if_that_is_killed(tmp_path, environment):
+    starts = (
+        'import os, sys, time\n'
+        'from tactile_push.testing.fork_server import fork_node\n'
+        f'log = open({str(tmp_path / "log")!r}, "ab")\n'
+        f'node = fork_node("contact_geometry", {SPIN}, dict(os.environ), log)\n'
+        'print(node.pid, flush=True)\n'
+        'time.sleep(600.0)\n'
+    )
+    command = [sys.executable, '-c', starts]
+    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE) as starter:
+        pid = int(starter.stdout.readline())
+        assert not has_ended(pid)
+        starter.kill()
+    wait_for(lambda: has_ended(pid), 'the end of the node')
+    assert (tmp_path / 'log').read_text() == ''
