@@ -15,6 +15,7 @@ NODES = runpy.run_path(str(Path(__file__).parent / NAME / 'interface.py'))['NODE
 # Wheels of ROS 2 exist for these machines alone; elsewhere ROS comes from a workspace.
 WHEELS = "platform_system == 'Linux' and platform_machine == 'x86_64' and python_version < '3.14'"
 MUJOCO = 'mujoco>=3.2,<5'  # for 0.1 GB, and 2 s with a fast connection
+CAMERA = ['opencv-python-headless>=4.8,<6', 'scipy>=1.11,<2']
 
 setup(
     name=NAME,
@@ -46,6 +47,7 @@ setup(
         'zstandard>=0.22,<1',
     ],
     extras_require={
+        'camera': CAMERA,
         'docs': [
             'myst-parser>=3,<6',
             'sphinx>=7.2,<10',
@@ -57,6 +59,7 @@ setup(
             f'ros-jazzy-rclpy[fastrtps]>=7.1,<8; {WHEELS}',
         ],
         'test': [
+            *CAMERA,
             'colcon-core>=0.18,<1',
             'colcon-python-setup-py>=0.2.9,<1',
             'colcon-ros>=0.5,<1',

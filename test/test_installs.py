@@ -104,6 +104,7 @@ def setup(monkeypatch):
 
 # What rosdep calls a module, where it is not the module's own name.
 KEYS = {
+    'cv2': 'python3-opencv',
     'lz4': 'mcap-ros2-support',
     'mcap': 'mcap-ros2-support',
     'mcap_ros2': 'mcap-ros2-support',
@@ -124,10 +125,11 @@ def test_setup_requires_what_the_package_imports_and_nothing_else(setup):
     pytest.importorskip('plotly')
     projects = packages_distributions()
     modules = {name for name in foreign(ROOT) if not ROS.fullmatch(name)}
-    modules -= {'pytest', 'mujoco', 'xacro'}  # of the extras
+    modules -= {'pytest', 'mujoco', 'xacro', 'cv2', 'scipy'}  # of the extras
     needed = {projects[name][0].lower().replace('_', '-') for name in modules}
     assert installed(setup['install_requires']) == needed
     assert installed(setup['extras_require']['mujoco']) == {'mujoco'}
+    assert installed(setup['extras_require']['camera']) == {'opencv-python-headless', 'scipy'}
     assert all('x86_64' in line for line in setup['extras_require']['ros'])
     assert installed(setup['extras_require']['ros']) == {
         'ros-jazzy-common-interfaces',
