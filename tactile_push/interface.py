@@ -63,6 +63,7 @@ FINGERTIP = 'fingertip'  # turns with the tip; azimuth and elevation are measure
 # Nodes.
 SENSOR_DRIVER = 'sensor_driver'
 WRENCH_SENSOR = 'wrench_sensor'
+CAMERA_SENSOR = 'camera_sensor'
 CONTACT_GEOMETRY = 'contact_geometry'
 PUSH_CONTROLLER = 'push_controller'
 ACTIVE_SENSING = 'active_sensing'
@@ -75,6 +76,8 @@ BAG_PLAYER = 'bag_player'
 
 # Topics.
 WRENCH = 'wrench'
+IMAGE = 'image'
+COMPRESSED_IMAGE = 'image/compressed'
 TACTILE = 'tactile'
 JOINT_STATES = 'joint_states'
 CONTACT = 'contact'
@@ -93,6 +96,7 @@ PARAMETER_EVENTS = '/parameter_events'
 
 # Services.
 TARE = 'wrench_sensor/tare'
+TAKE_REFERENCE = 'camera_sensor/take_reference'
 RESUME = 'push_controller/resume'
 PAUSE, STEP = '~/pause', '~/step'
 
@@ -113,6 +117,8 @@ JOINT_STATE_TYPE = 'sensor_msgs/msg/JointState'
 POSE_TYPE = 'geometry_msgs/msg/PoseStamped'
 UNCERTAIN_POSE_TYPE = 'geometry_msgs/msg/PoseWithCovarianceStamped'
 WRENCH_TYPE = 'geometry_msgs/msg/WrenchStamped'
+IMAGE_TYPE = 'sensor_msgs/msg/Image'
+COMPRESSED_IMAGE_TYPE = 'sensor_msgs/msg/CompressedImage'
 TWIST_TYPE = 'geometry_msgs/msg/TwistStamped'
 MARKERS_TYPE = 'visualization_msgs/msg/MarkerArray'
 
@@ -125,6 +131,11 @@ NODES = {
         NodeSummary(
             WRENCH_SENSOR,
             'finds the contact on a tip that sits on a force/torque sensor',
+            managed=True,
+        ),
+        NodeSummary(
+            CAMERA_SENSOR,
+            'finds the contact on a tip that a camera sees from inside',
             managed=True,
         ),
         NodeSummary(CONTACT_GEOMETRY, 'computes the contact from a reading and the joint angles'),
@@ -165,7 +176,16 @@ TOPICS = {
         Topic(WRENCH, WRENCH_TYPE, ('the sensor', *PLANTS), (WRENCH_SENSOR,),
             "force and moment on the finger tip in the sensor's frame, at 20 Hz or more",
         ),
-        Topic(TACTILE, JOINT_STATE_TYPE, (SENSOR_DRIVER, WRENCH_SENSOR), (CONTACT_GEOMETRY,),
+        Topic(IMAGE, IMAGE_TYPE, ('the sensor',), (CAMERA_SENSOR,),
+            'what the camera in the finger tip sees: mono8, rgb8 or bgr8, of the calibrated size',
+            recorded=False,
+        ),
+        Topic(COMPRESSED_IMAGE, COMPRESSED_IMAGE_TYPE, ('the sensor',), (CAMERA_SENSOR,),
+            'the same as JPEG or PNG, with `image_transport` compressed',
+            recorded=False,
+        ),
+        Topic(TACTILE, JOINT_STATE_TYPE, (SENSOR_DRIVER, WRENCH_SENSOR, CAMERA_SENSOR),
+            (CONTACT_GEOMETRY,),
             'a reading of the sensor in `fingertip`, stamped when it was read; NaN is no contact '
             'or not measured',
             (
@@ -298,6 +318,12 @@ SERVICES = (
         'std_srvs/srv/Trigger',
         WRENCH_SENSOR,
         'takes the present wrench for that of a tip that touches nothing',
+    ),
+    Service(
+        TAKE_REFERENCE,
+        'std_srvs/srv/Trigger',
+        CAMERA_SENSOR,
+        'takes the last images for those of a tip that touches nothing',
     ),
     Service(
         RESUME,

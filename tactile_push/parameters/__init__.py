@@ -6,6 +6,7 @@ from tactile_push import interface
 from tactile_push.parameters.active_sensing import ActiveSensingParameters
 from tactile_push.parameters.bag_player import BagPlayerParameters
 from tactile_push.parameters.bag_recorder import BagRecorderParameters
+from tactile_push.parameters.camera_sensor import CameraSensorParameters
 from tactile_push.parameters.config_file import config_file
 from tactile_push.parameters.contact_geometry import ContactGeometryParameters
 from tactile_push.parameters.experiment import ExperimentParameters
@@ -19,6 +20,7 @@ from tactile_push.parameters.wrench_sensor import WrenchSensorParameters
 PARAMETERS: dict[str, type[NodeParameters]] = {
     interface.SENSOR_DRIVER: SensorDriverParameters,
     interface.WRENCH_SENSOR: WrenchSensorParameters,
+    interface.CAMERA_SENSOR: CameraSensorParameters,
     interface.CONTACT_GEOMETRY: ContactGeometryParameters,
     interface.PUSH_CONTROLLER: PushControllerParameters,
     interface.ACTIVE_SENSING: ActiveSensingParameters,
@@ -35,6 +37,7 @@ __all__ = [
     'ActiveSensingParameters',
     'BagPlayerParameters',
     'BagRecorderParameters',
+    'CameraSensorParameters',
     'ContactGeometryParameters',
     'ExperimentParameters',
     'MujocoPlantParameters',

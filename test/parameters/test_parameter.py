@@ -105,6 +105,7 @@ def test_every_default_is_a_value():
 WITHOUT_UNIT = {
     'belt_ripple',
     'edge',
+    'image_noise',
     'l_share',
     'max_out_of_plane',
     'max_ticks_lost',
@@ -117,6 +118,7 @@ WITHOUT_UNIT = {
     'sensor_dropout',
     'sensor_outlier',
     'steps',
+    'untouched_images',
 }
 
 

@@ -9,3 +9,5 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 PUBLISHED = QoSProfile(depth=1000)
 # The newest message counts. Deep enough that a bad message does not push out a good one.
 SENSOR_DATA = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
+# Images, of which one that waited behind others would be late.
+IMAGES = QoSProfile(depth=2, reliability=ReliabilityPolicy.BEST_EFFORT)
