@@ -103,6 +103,7 @@ def command_parser() -> tuple[Parser, Commands]:
     """Return the parser of the command line and its subcommands, for help and documentation."""
     # Imported here, so that an interrupt is silent from the beginning.
     from tactile_push.cli import (
+        calibrate,
         demo,
         diff,
         estimate,
@@ -120,7 +121,8 @@ def command_parser() -> tuple[Parser, Commands]:
         description='Turn and locate objects by pushing them with one tactile finger.',
     )
     commands = parser.add_subparsers(required=True, metavar='COMMAND', dest='command')
-    for command in (demo, simulate, figures, record, play, replay, estimate, info, diff, report):
+    runs = demo, simulate, figures, record, play
+    for command in (*runs, replay, estimate, info, diff, report, calibrate):
         command.add(commands)
     return parser, commands
 
