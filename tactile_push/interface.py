@@ -107,7 +107,7 @@ VERSION_NOTE = 'tactile_push.version'
 WRIST_JOINT = 'wrist_joint'  # in `joint_states` of a finger whose wrist holds the tip straight
 
 # Kinds of sensor that the simulated finger may have: one that sends sentences, and one of forces.
-SENSORS = (SENTENCE, FORCE_TORQUE) = ('sentence', 'wrench')
+SENSORS = (SENTENCE, FORCE_TORQUE, CAMERA) = ('sentence', 'wrench', 'camera')
 # Points of the finger tip of which one follows the commanded velocity across the belt.
 POINTS = ('centre', 'pole', 'contact')
 # What active sensing makes of readings while the direction of the finger tip is not known.
@@ -176,7 +176,7 @@ TOPICS = {
         Topic(WRENCH, WRENCH_TYPE, ('the sensor', *PLANTS), (WRENCH_SENSOR,),
             "force and moment on the finger tip in the sensor's frame, at 20 Hz or more",
         ),
-        Topic(IMAGE, IMAGE_TYPE, ('the sensor',), (CAMERA_SENSOR,),
+        Topic(IMAGE, IMAGE_TYPE, ('the sensor', *PLANTS), (CAMERA_SENSOR,),
             'what the camera in the finger tip sees: mono8, rgb8 or bgr8, of the calibrated size',
             recorded=False,
         ),

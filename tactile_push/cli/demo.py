@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tactile_push.cli.arguments import Commands, Refused
-from tactile_push.interface import MUJOCO_PLANT, SENSORS, SENTENCE, SIM_PLANT
+from tactile_push.interface import CAMERA, MUJOCO_PLANT, SENSORS, SENTENCE, SIM_PLANT
 from tactile_push.needs_mujoco import mujoco_is_missing
+from tactile_push.needs_opencv import opencv_is_missing
 from tactile_push.paper import DISK
 
 if TYPE_CHECKING:
@@ -46,8 +47,8 @@ def add(commands: Commands) -> None:
         '--sensor',
         choices=SENSORS,
         default=SENTENCE,
-        help='what the finger feels with: a sensor that sends sentences, or a force/torque sensor '
-        'with its noise (default: sentence)',
+        help='what the finger feels with: a sensor that sends sentences, a force/torque sensor '
+        'or a camera with its noise (default: sentence)',
     )
     demo.add_argument('--json', action='store_true', help='print one JSON object, SI units')
     demo.set_defaults(run=_demo, ros=True)
@@ -69,6 +70,8 @@ def _demo(options: argparse.Namespace) -> int:
     )
     plant = PHYSICS[options.physics]
     if plant == MUJOCO_PLANT and mujoco_is_missing('tactile_push demo'):
+        return 2
+    if options.sensor == CAMERA and opencv_is_missing('tactile_push demo', 'cv2'):
         return 2
     tasks = {name: bar.add_task(name, total=demo.STEPS) for name in demo.RIGS}
     try:

@@ -5,7 +5,15 @@
 import math
 from typing import Any, NamedTuple
 
-from tactile_push.interface import FORCE_TORQUE, SENSOR_DRIVER, SENTENCE, WRENCH_SENSOR
+from tactile_push.interface import (
+    CAMERA,
+    CAMERA_SENSOR,
+    FORCE_TORQUE,
+    SENSOR_DRIVER,
+    SENTENCE,
+    WRENCH_SENSOR,
+)
+from tactile_push.parameters.simulated_camera import CALIBRATION
 
 FILTER = 0.1  # time constant with which the noise below spreads theta by 0.6° [s]
 
@@ -37,5 +45,11 @@ SENSOR_KINDS = {
         },
         {'noise': FILTERED},
     ),
+    CAMERA: SensorKind(
+        CAMERA_SENSOR,
+        {**CALIBRATION, 'reference_at_start': True},
+        {'publish_image': True, 'image_noise': 0.02},
+        {},
+    ),
 }
-"""What each of `interface.SENSORS` needs; a wrench has the noise of a usual sensor."""
+"""What each of `interface.SENSORS` needs; wrenches and images have the noise of usual ones."""

@@ -60,6 +60,14 @@ class SimPlantParameters(NodeParameters):
         'publish what a force/torque sensor under the finger tip measures', read_only=True)
     tip_xyz: list[float] = shared.tip_xyz
     tip_rpy: list[float] = shared.tip_rpy
+    publish_image: bool = parameter(False, '',
+        'publish what a camera in the finger tip sees', read_only=True)
+    image_noise: float = parameter(0.02, '',
+        "standard deviation of a pixel's brightness, in parts of the brightest", 0.004, 1.0,
+        read_only=True)
+    untouched_images: int = parameter(50, '',
+        'so many images that somebody hears show an untouched tip, for a reference', 0, 1000000,
+        read_only=True)
     contact_lag: float = parameter(0.0, 's',
         'by how much the contact of a reading may be older than it, as with a sensor node that '
         'filters', 0.0, 1.0, read_only=True)

@@ -122,7 +122,7 @@ class Rig:
         simulator : str, optional
             The node that simulates, `sim_plant` or `mujoco_plant`.
         sensor : str, optional
-            Which kind of sensor the finger has, 'sentence' or 'wrench'.
+            Which kind of sensor the finger has, 'sentence', 'wrench' or 'camera'.
         **plant : object
             Parameters of that node, such as the faults of the sensor.
         """

@@ -12,12 +12,13 @@ from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import WrenchStamped
 from lifecycle_msgs.msg import State
 from rcl_interfaces.msg import ParameterType, ParameterValue
-from sensor_msgs.msg import JointState
+from sensor_msgs.msg import Image, JointState
 from std_srvs.srv import Trigger
 
 from tactile_push.control import PUSHING, STOP_REASONS, TICKS_LOST
 from tactile_push.interface import (
     CONTACT_GEOMETRY,
+    IMAGE,
     JOINT_STATES,
     PUSH_CONTROLLER,
     SENSOR_DRIVER,
@@ -33,7 +34,8 @@ from .promise import BrokenPromiseError, Setup
 from .proxy import DeviceProxy, free_port
 from .relay import Relay
 
-RELAYED = {JOINT_STATES: JointState, WRENCH: WrenchStamped}  # what can be spoiled on its way
+# What can be spoiled on its way.
+RELAYED = {JOINT_STATES: JointState, WRENCH: WrenchStamped, IMAGE: Image}
 DESIRED = math.radians(10.0)  # to both sides in turn, so that the finger stays where it can
 MOVING = 5e-5  # [m/s]
 MOST_THETA = math.radians(25.0)

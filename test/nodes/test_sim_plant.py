@@ -19,7 +19,8 @@ def plant(bench, tmp_path):
 
 
 def test_topics_are_those_of_the_interface(bench, plant):
-    plant(publish_clock=True, publish_wrench=True)
+    pytest.importorskip('cv2', reason="pip install 'tactile_push[camera]'")
+    plant(publish_clock=True, publish_wrench=True, publish_image=True)
     assert bench.topics() == declared_topics(SIM_PLANT)
 
 

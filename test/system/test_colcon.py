@@ -13,7 +13,6 @@ EXECUTABLES = {
     'tactile_push',
     'sensor_driver',
     'wrench_sensor',
-    'wrench_sensor',
     'camera_sensor',
     'contact_geometry',
     'active_sensing',

@@ -15,6 +15,7 @@ from tactile_push.simulation import control_periods, experiment, paper_block, pa
 from tactile_push.testing import Rig, field, seconds
 
 STEPS, FEW_STEPS = 260, 60
+SETTLED_BY = 230  # steps, by which the block is within 3 degrees of theta_d for good
 
 
 def pushed(rig: Rig, steps: int) -> list[JointState]:
@@ -65,6 +66,19 @@ def test_block_settles_by_what_a_force_torque_sensor_feels_in_spite_of_its_noise
     felt = np.array([field(m, 'theta') for m in states])
     assert 0.2 < np.degrees(np.std(felt - true[steps])) < 2.0
     assert {'normal_force', 'tangential_force'} <= set(rig.tactile[-1].name)
+
+
+def test_block_settles_by_what_a_camera_in_the_tip_sees_in_spite_of_its_noise(rig: Rig):
+    pytest.importorskip('cv2', reason="pip install 'tactile_push[camera]'")
+    rig.start('block', sensor='camera')
+    states = pushed(rig, SETTLED_BY + 20)
+    settled = settle_step(
+        np.array([field(m, 'theta') for m in states]), math.radians(-10.0), math.radians(3.0)
+    )
+    assert settled is not None
+    assert settled <= SETTLED_BY
+    truth = np.array([field(m, 'theta') for m in rig.truth[-20:]])
+    assert np.degrees(np.abs(truth - math.radians(-10.0))).max() < 3.0
 
 
 def test_loop_on_mujoco_goes_along_the_trajectory_without_clocks_and_processes(rig: Rig):

@@ -33,6 +33,7 @@ from tactile_push.interface import (
     WRENCH,
     WRIST_JOINT,
 )
+from tactile_push.needs_opencv import missing_for_images
 from tactile_push.nodes.ros.compiling import compiling
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.markers import rig_markers
@@ -46,6 +47,7 @@ from tactile_push.simulation.pace import Pace
 from tactile_push.tactile import Reading
 
 if TYPE_CHECKING:
+    from tactile_push.nodes.ros.plant_camera import PlantCamera
     from tactile_push.simulation.mujoco_rig import MujocoRig
 
 P = TypeVar('P', bound=SimPlantParameters)
@@ -110,6 +112,7 @@ class PlantNode(Node, Generic[P]):
         self._wrench = (
             self.create_publisher(WrenchStamped, WRENCH, PUBLISHED) if p.publish_wrench else None
         )
+        self._camera = self._make_camera(p) if p.publish_image else None
         self._clock_publisher = None
         if p.publish_clock:
             self._clock_publisher = self.create_publisher(Clock, CLOCK, 10)
@@ -210,15 +213,25 @@ class PlantNode(Node, Generic[P]):
         self._awaited = None
         if self._wrench is not None:
             self._measure_wrench(self._wrench)
+        if self._camera is not None:
+            rig = self._rig
+            self._camera.publish(rig.reading(), rig.contact_force, self._stamp())
         for sample in self._readout.read(self._rig.reading(), self._time):
             if sample.reading is None:
                 self._sequence += 1  # as of a sentence that never arrives
                 self._counts['readings lost'] += 1
                 continue
             self._send(sample.reading)
-            if sample.likely:
+            if sample.likely and (self._camera is None or self._camera.touches):
                 self._awaited = sample.reading
                 self._pace.reading(self._time)
+
+    def _make_camera(self, p: P) -> 'PlantCamera':
+        if needed := missing_for_images('cv2'):
+            raise ConfigurationError(f'parameter publish_image: {needed}')
+        from tactile_push.nodes.ros.plant_camera import PlantCamera
+
+        return PlantCamera(self, p)
 
     def _measure_wrench(self, publisher: Publisher) -> None:
         """Publish what the force/torque sensor measures."""
