@@ -122,6 +122,15 @@ def test_links_are_one_tree_from_the_base_and_joints_have_what_their_types_need(
 def test_limits_are_those_of_the_machine():
     text = described(joint_min=[-1.0, -2.0], joint_max=[1.5, 0.5], joint_speed=[3.0, 4.0])
     robot = ElementTree.fromstring(text)
-    limits = [joint.find('limit').attrib for joint in robot.findall("joint[@type='revolute']")]
-    found = [tuple(float(one[key]) for key in ('lower', 'upper', 'velocity')) for one in limits]
-    assert found == [(-1.0, 1.5, 3.0), (-2.0, 0.5, 4.0)]
+    limits = {joint.get('name'): joint.find('limit') for joint in robot.findall('joint')}
+    found = {
+        name: tuple(float(limit.get(key)) for key in ('lower', 'upper', 'velocity'))
+        for name, limit in limits.items()
+        if limit is not None
+    }
+    assert found == {
+        'proximal_joint': (-1.0, 1.5, 3.0),
+        'distal_joint': (-2.0, 0.5, 4.0),
+        'along_proximal_link_joint': (-0.5, 2.0, 4.0),
+        'finger_disk_joint': (-1.5, 1.0, 3.0),
+    }
