@@ -132,17 +132,18 @@ def finger_plan(texts: Mapping[str, str]) -> Plan:
         # As the plant names its joints, whatever those of the machine are called.
         values['joint_names'] = [*shared.JOINT_NAMES, WRIST_JOINT][: len(p.joint_names)]
         values |= {'device': shared.DEVICE, 'use_sim_time': True}
-    own = kind.parameters if p.sim else {}
-    nodes = [_node(kind.node, p.namespace, files, values, own)]
-    nodes += [_node(node, p.namespace, files, values) for node in _LOOP]
+    own: dict[str, dict[str, Any]] = {}
+    if p.sim:
+        own = {kind.node: kind.parameters, ACTIVE_SENSING: kind.sensing}
+    nodes = [_node(node, p.namespace, files, values, own.get(node)) for node in (kind.node, *_LOOP)]
     if p.sim:
         if not any(_own_name(section) == SIM_PLANT for section in _read_file(pushed)):
             raise ValueError(
                 f'{pushed}: expected a section of {SIM_PLANT} that describes the object'
             )
         turns = p.robot == JOINTS and len(p.joint_names) == 2
-        own = {'publish_clock': True, 'tip_turns': turns, **kind.plant, **_mount(nodes[0])}
-        nodes.insert(0, _node(SIM_PLANT, p.namespace, files, values, own))
+        plant = {'publish_clock': True, 'tip_turns': turns, **kind.plant, **_mount(nodes[0])}
+        nodes.insert(0, _node(SIM_PLANT, p.namespace, files, values, plant))
     if p.record:
         nodes.append(_node(BAG_RECORDER, p.namespace, files, values))
     shown = _shown(values if p.robot == JOINTS else None, values, rviz=p.rviz)

@@ -132,7 +132,10 @@ def test_force_torque_sensor_has_the_tip_of_the_machine_and_a_simulated_one_the_
     reader = values(plan, 'wrench_sensor')
     assert (reader['tip_radius'], reader['tip_xyz']) == (0.02, [0.0, 0.001, 0.03])
     assert 'needs_tare' not in reader
-    plant = values(finger_plan({'config': machine, 'calibration': tip, 'sim': 'true'}), 'sim_plant')
+    plan = finger_plan({'config': machine, 'calibration': tip, 'sim': 'true'})
+    assert values(plan, 'wrench_sensor')['needs_tare'] is False  # the finger begins in contact
+    assert values(plan, 'active_sensing')['noise'] > 0.0035  # of what the machine's file says
+    plant = values(plan, 'sim_plant')
     assert (plant['finger_radius'], plant['tip_xyz']) == (0.02, [0.0, 0.001, 0.03])
     assert plant['publish_wrench']
 
