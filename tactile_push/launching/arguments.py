@@ -83,8 +83,11 @@ class FingerArguments(LaunchArguments):
     config: str = parameter('', '',
         "parameter file of the machine; empty for the package's config/hardware.yaml")
     sensor: str = parameter(SENTENCE, '', 'kind of sensor in the finger tip', choices=SENSORS)
+    sensor_topic: str = parameter('', '',
+        "topic of the sensor's driver: of its wrenches or of its images; empty for wrench or image")
     calibration: str = parameter('', '',
-        "parameter file of the sensor's node that a calibration wrote; empty if it needs none")
+        "parameter file of the sensor's node, as `tactile_push calibrate` writes it; empty if it "
+        'needs none')
     robot: str = parameter(JOINTS, '',
         'what moves the tip: finger is the finger of two joints, whose description is published; '
         'none is a machine without joint angles, whose tip does not turn', choices=ROBOTS)

@@ -8,20 +8,25 @@ values for the same parameter the later one counts.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from tactile_push.interface import (
     ACTIVE_SENSING,
     BAG_RECORDER,
+    CAMERA,
+    COMPRESSED_IMAGE,
     CONTACT_GEOMETRY,
     FINGER_DISK,
+    FORCE_TORQUE,
+    IMAGE,
     PLANTS,
     PUSH_CONTROLLER,
     SENTENCE,
     SIM_PLANT,
     STRAIGHT,
+    WRENCH,
     WRENCH_SENSOR,
     WRIST_JOINT,
 )
@@ -119,31 +124,21 @@ def finger_plan(texts: Mapping[str, str]) -> Plan:
     hardware = _read_file(file)
     p = FingerArguments.of({**_launch_values(hardware, file), **given})
     pushed = _object_file(p)
-    files = [_read_file(pushed), hardware]
-    kind = SENSOR_KINDS[p.sensor]
     # Of a hard tip the hemisphere has the disk's radius; a file may know better.
-    files.insert(0, {f'/**/{WRENCH_SENSOR}': {'tip_radius': p.finger_radius}})
+    tip: Sections = {f'/**/{WRENCH_SENSOR}': {'tip_radius': p.finger_radius}}
+    files = [tip, _read_file(pushed), hardware]
     if p.calibration:
         files.append(_read_file(Path(p.calibration)))
-    values: dict[str, Any] = dict(p.machine)
-    if p.robot != JOINTS:
-        values |= {'use_joint_states': False, 'without_psi': STRAIGHT}
-    if p.sim:
-        # As the plant names its joints, whatever those of the machine are called.
-        values['joint_names'] = [*shared.JOINT_NAMES, WRIST_JOINT][: len(p.joint_names)]
-        values |= {'device': shared.DEVICE, 'use_sim_time': True}
-    own: dict[str, dict[str, Any]] = {}
-    if p.sim:
-        own = {kind.node: kind.parameters, ACTIVE_SENSING: kind.sensing}
+    kind, values = SENSOR_KINDS[p.sensor], _values(p)
+    own = {kind.node: kind.parameters, ACTIVE_SENSING: kind.sensing} if p.sim else {}
     nodes = [_node(node, p.namespace, files, values, own.get(node)) for node in (kind.node, *_LOOP)]
     if p.sim:
-        if not any(_own_name(section) == SIM_PLANT for section in _read_file(pushed)):
-            raise ValueError(
-                f'{pushed}: expected a section of {SIM_PLANT} that describes the object'
-            )
-        turns = p.robot == JOINTS and len(p.joint_names) == 2
-        plant = {'publish_clock': True, 'tip_turns': turns, **kind.plant, **_mount(nodes[0])}
+        if not any(_own_name(section) == SIM_PLANT for section in files[1]):
+            raise ValueError(f'{pushed}: expected a section of {SIM_PLANT} with the object')
+        plant = _plant_values(p, kind.plant, nodes[0])
         nodes.insert(0, _node(SIM_PLANT, p.namespace, files, values, plant))
+    else:
+        nodes[0] = replace(nodes[0], remappings=_heard_of(p))
     if p.record:
         nodes.append(_node(BAG_RECORDER, p.namespace, files, values))
     shown = _shown(values if p.robot == JOINTS else None, values, rviz=p.rviz)
@@ -153,10 +148,40 @@ def finger_plan(texts: Mapping[str, str]) -> Plan:
 _LOOP = (CONTACT_GEOMETRY, PUSH_CONTROLLER, ACTIVE_SENSING)
 
 
-def _mount(sensor: Program) -> dict[str, Any]:
-    """Return where the tip sits on its force/torque sensor, so that a simulated one is alike."""
-    names = ('tip_xyz', 'tip_rpy')
-    return {name: sensor.parameters[name] for name in names if name in sensor.parameters}
+def _values(p: FingerArguments) -> dict[str, Any]:
+    """Return values for all nodes that declare parameters of these names."""
+    values = p.machine
+    if p.robot != JOINTS:
+        values |= {'use_joint_states': False, 'without_psi': STRAIGHT}
+    if p.sim:
+        # As the plant names its joints, whatever those of the machine are called.
+        values['joint_names'] = [*shared.JOINT_NAMES, WRIST_JOINT][: len(p.joint_names)]
+        values |= {'device': shared.DEVICE, 'use_sim_time': True}
+    return values
+
+
+def _plant_values(p: FingerArguments, kind: Mapping[str, Any], sensor: Program) -> dict[str, Any]:
+    """Return what the plant is told so that it is like the machine, with a kind of sensor."""
+    turns = p.robot == JOINTS and len(p.joint_names) == 2
+    mount = {name: sensor.parameters[name] for name in _MOUNT if name in sensor.parameters}
+    return {'publish_clock': True, 'tip_turns': turns, **kind, **mount}
+
+
+_MOUNT = ('tip_xyz', 'tip_rpy')  # where the tip sits on its force/torque sensor
+
+
+def _heard_of(p: FingerArguments) -> tuple[tuple[str, str], ...]:
+    """Return which topics of the sensor's node become which of the sensor's driver."""
+    topic = p.sensor_topic
+    remappings = {
+        FORCE_TORQUE: ((WRENCH, topic),),
+        CAMERA: ((IMAGE, topic), (COMPRESSED_IMAGE, f'{topic}/compressed')),
+    }
+    if not topic:
+        return ()
+    if p.sensor not in remappings:
+        raise ValueError(f'argument sensor_topic: expected none for {p.sensor}, got {topic!r}')
+    return remappings[p.sensor]
 
 
 def _node(

@@ -146,6 +146,26 @@ def test_file_may_know_better_than_the_machine_what_radius_touches(own):
     assert values(plan, 'wrench_sensor')['tip_radius'] == 0.019
 
 
+@pytest.mark.parametrize(
+    ('sensor', 'remappings'),
+    [
+        ('wrench', {'wrench': '/driver/out'}),
+        ('camera', {'image': '/driver/out', 'image/compressed': '/driver/out/compressed'}),
+    ],
+)
+def test_sensor_is_read_where_its_driver_publishes_and_a_simulated_one_is_not(sensor, remappings):
+    texts = {'sensor': sensor, 'sensor_topic': '/driver/out'}
+    for sim, expected in (('false', remappings), ('true', {})):
+        plan = finger_plan({**texts, 'sim': sim})
+        (reader,) = (one for one in plan.programs if one.executable == f'{sensor}_sensor')
+        assert dict(reader.remappings) == expected
+
+
+def test_sensor_that_sends_sentences_has_no_topic():
+    with pytest.raises(ValueError, match='^argument sensor_topic: expected none for sentence'):
+        finger_plan({'sensor_topic': 'wrench'})
+
+
 def test_section_of_another_namespace_is_for_another_finger(tmp_path):
     file = tmp_path / 'two.yaml'
     file.write_text(
