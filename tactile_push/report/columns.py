@@ -28,8 +28,8 @@ from tactile_push.interface import (
 )
 from tactile_push.pipeline.named import by_name
 from tactile_push.pipeline.orientation import yaw_of_quaternion
-from tactile_push.report.data import ERROR, WARNING
 from tactile_push.report.episodes import Label
+from tactile_push.report.labels import status_label
 
 # The topics of a finger that a report shows.
 SHOWN = (
@@ -49,7 +49,6 @@ TAKEN: Mapping[str, Set[str]] = {
     for topic in SHOWN
     if TOPICS[topic].type_name == JOINT_STATE_TYPE
 } | {TACTILE: frozenset(), GEOMETRY_STATE: frozenset(['refusal'])}
-LEVELS = (None, WARNING, ERROR, ERROR)  # of diagnostics: ok, warn, error, stale
 PROGRESS_EVERY = 1000  # messages
 FAR = 10.0  # between stamp and log time: a message takes less, so the stamp is of another clock [s]
 
@@ -85,9 +84,9 @@ def read_tables(
         time = _time(content.header.stamp, message.log_time, bag.start_time)
         if own == DIAGNOSTICS:
             for status in content.status:
-                statuses[status.name].append((time, _status_label(status)))
+                statuses[status.name].append((time, status_label(status)))
         else:
-            values = positions(content, TAKEN[own]) if own in TAKEN else _pose(content)
+            values = positions(content, TAKEN[own]) if own in TAKEN else pose(content)
             columns[own].add(time, values)
         if done % PROGRESS_EVERY == 0:
             progress(done)
@@ -101,22 +100,18 @@ def _time(stamp: Any, log_time: int, start: int) -> float:
     return stamped if abs(stamped - logged) <= FAR else logged
 
 
-def _status_label(status: Any) -> Label | None:
-    level = LEVELS[max(0, min(status.level, 3))]
-    return None if level is None else (level, status.message)
-
-
 def positions(content: Any, taken: Set[str]) -> dict[str, float]:
     """Return the positions of a JointState message by those names that are taken."""
     values = by_name(content.name, content.position)
     return {name: value for name, value in values.items() if name in taken}
 
 
-def _pose(content: Any) -> dict[str, float]:
-    pose = getattr(content.pose, 'pose', content.pose)
-    rotation = pose.orientation
+def pose(content: Any) -> dict[str, float]:
+    """Return x, y and yaw of a pose message, with or without a covariance."""
+    place = getattr(content.pose, 'pose', content.pose)
+    rotation = place.orientation
     yaw = yaw_of_quaternion(rotation.x, rotation.y, rotation.z, rotation.w)
-    return {'x': pose.position.x, 'y': pose.position.y, 'yaw': yaw}
+    return {'x': place.position.x, 'y': place.position.y, 'yaw': yaw}
 
 
 class Columns:

@@ -6,44 +6,23 @@ The page is made of page.html, page.css and the scripts in assets/, of plotly.js
 package plotly brings it, and of the run as JSON. Degrees, millimetres and seconds, as people read.
 """
 
-import base64
-import hashlib
 import html
 import json
-import math
 from collections.abc import Iterable, Sequence
-from importlib.resources import files
 from itertools import zip_longest
 from string import Template
 
 import numpy as np
-import numpy.typing as npt
 
-from tactile_push.report.data import LEVELS, Episode, Run, Scene, Series
+from tactile_push.report.data import LEVELS, Episode, Run, Series
 from tactile_push.report.episodes import joined
+from tactile_push.report.page_parts import allowance, asset, own_script
+from tactile_push.report.scene import scene_content
+from tactile_push.report.shown import HOLD, SERIES, VIEWED, numbers, readable
 from tactile_push.report.visible import frame_times, held, visible
 
-DEGREES, MILLIMETRES, SECONDS = 180.0 / math.pi, 1e3, 1.0
-
-# What a report shows against time, if the bag has it: factor from SI, offset and decimals.
-LENGTHS = ('v_x', 'v_x_true', 'd', 'd_lower', 'd_upper', 'd_least', 'd_most', 'd_true')
-SERIES = {
-    **dict.fromkeys(('theta', 'theta_desired'), (DEGREES, 0.0, 3)),
-    **dict.fromkeys(('phi', 'psi'), (DEGREES, -90.0, 3)),
-    **dict.fromkeys(LENGTHS, (MILLIMETRES, 0.0, 4)),  # and lengths a second
-    **dict.fromkeys(('silence', 'interval'), (SECONDS, 0.0, 4)),
-}
-# What only the view from above shows.
-VIEWED = {
-    **dict.fromkeys(('object_x', 'object_y'), (MILLIMETRES, 0.0, 3)),
-    'object_angle': (DEGREES, 0.0, 3),
-    **dict.fromkeys(('estimate_x', 'estimate_y'), (MILLIMETRES, 0.0, 3)),
-    **dict.fromkeys(('finger_x', 'belt_travel'), (MILLIMETRES, 0.0, 2)),
-    'state': (1.0, 0.0, 0),
-}
 UNSEEN = 1e-3  # gap between two episodes, relative to the duration: about a pixel
-HOLD = 1.0  # the view shows no value that is older [s]: ten control periods of the paper
-SCRIPTS = ('page.js', 'plots.js', 'view.js')
+SCRIPTS = ('page.js', 'panels.js', 'plots.js', 'view.js')
 MOST_ROWS = 50  # of kinds of episodes: as many as a person may read; picked
 
 
@@ -62,11 +41,12 @@ def report_html(run: Run) -> str:
     """
     from plotly.offline import get_plotlyjs  # which Ubuntu does not have; the figures need it not
 
-    plotly, script = get_plotlyjs(), _script()
-    return Template(_part('page.html')).substitute(
+    plotly, script = get_plotlyjs(), own_script(*map(asset, SCRIPTS))
+    return Template(asset('page.html')).substitute(
         policy=_policy(plotly, script),
         name=html.escape(run.name),
-        style=_part('page.css'),
+        style=asset('page.css'),
+        view=asset('view.svg'),
         facts=html.escape(' · '.join(run.facts)),
         warnings=_warnings(run.warnings),
         summary=_outcome(run.outcome) if run.outcome else '',
@@ -78,22 +58,9 @@ def report_html(run: Run) -> str:
     )
 
 
-def _part(name: str) -> str:
-    return (
-        files('tactile_push.report').joinpath('assets').joinpath(name).read_text(encoding='utf-8')
-    )
-
-
-def _script() -> str:
-    """Return the page's own script, which adds no names to the window."""
-    parts = '\n'.join(_part(name) for name in SCRIPTS)
-    return f'(() => {{\n{parts}}})();\n'
-
-
 def _policy(*scripts: str) -> str:
     """Allow these scripts and nothing else: no other script, nothing from elsewhere."""
-    hashes = [base64.b64encode(hashlib.sha256(text.encode()).digest()) for text in scripts]
-    allowed = ' '.join(f"'sha256-{digest.decode()}'" for digest in hashes)
+    allowed = ' '.join(map(allowance, scripts))
     return (
         f"default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src {allowed}"
     )
@@ -109,11 +76,10 @@ def _content(run: Run) -> dict[str, object]:
     """Return what the page's script needs, as plain values."""
     moments = frame_times(run.duration)
     nothing = Series(np.empty(0), np.empty(0))
-    frames: dict[str, object] = {'time': _numbers(moments, 4)}
-    for name, (factor, offset, decimals) in (SERIES | VIEWED).items():
+    frames: dict[str, object] = {'time': numbers(moments, 4)}
+    for name in SERIES | VIEWED:
         series = run.series.get(name, nothing)
-        values = held(series.time, series.values, moments, HOLD) * factor + offset
-        frames[name] = _numbers(values, decimals)
+        frames[name] = readable(name, held(series.time, series.values, moments, HOLD))
     gravest: dict[str, int] = {}
     drawn = joined(run.episodes, UNSEEN * run.duration, run.duration)
     for episode in drawn:
@@ -121,37 +87,20 @@ def _content(run: Run) -> dict[str, object]:
         gravest[episode.lane] = max(level, gravest.get(episode.lane, 0))
     return {
         'duration': max(run.duration, 1e-3),  # an axis needs a length
-        'series': {
-            name: _line(run.series[name], *SERIES[name]) for name in SERIES if name in run.series
-        },
+        'series': {name: _line(name, run.series[name]) for name in SERIES if name in run.series},
         'frames': frames,
         'states': list(run.states),
         'lanes': sorted(gravest, key=lambda lane: (-gravest[lane], lane)),
         'episodes': [vars(episode) for episode in drawn],
-        'scene': _scene(run.scene),
+        'scene': scene_content(run.scene),
     }
 
 
-def _line(series: Series, factor: float, offset: float, decimals: int) -> dict[str, object]:
+def _line(name: str, series: Series) -> dict[str, object]:
     seen = visible(series.time, series.values)
     return {
-        'time': _numbers(series.time[seen], 4),
-        'values': _numbers(series.values[seen] * factor + offset, decimals),
-    }
-
-
-def _numbers(values: npt.NDArray[np.float64], decimals: int) -> list[float | None]:
-    """Round, and write None where there is no number: JSON has no NaN."""
-    rounded = np.round(values, decimals) + 0.0  # no -0.0
-    return [value if math.isfinite(value) else None for value in rounded.tolist()]
-
-
-def _scene(scene: Scene) -> dict[str, object]:
-    mu_c = scene.mu_c
-    return {
-        'radius': scene.radius * MILLIMETRES,
-        'outline': [_numbers(MILLIMETRES * np.array(point), 3) for point in scene.outline],
-        'mu_c': 'infinite' if mu_c == math.inf else mu_c,
+        'time': numbers(series.time[seen], 4),
+        'values': readable(name, series.values[seen]),
     }
 
 

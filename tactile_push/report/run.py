@@ -8,17 +8,11 @@ from datetime import datetime, timezone
 import numpy as np
 
 from tactile_push.bags import BagReader
-from tactile_push.control import INACTIVE, STATES, STOP_REASONS, STOPPED, WAITING
-from tactile_push.estimation import CONTRADICTIONS
 from tactile_push.interface import (
-    CONTACT,
     CONTROLLER_STATE,
     GEOMETRY_STATE,
-    OBJECT_POSE,
     SENSING_STATE,
     TACTILE,
-    TRUE_POSE,
-    TRUE_STATE,
     VERSION_NOTE,
 )
 from tactile_push.parameters.recorded import recorded_parameters
@@ -29,38 +23,23 @@ from tactile_push.report.columns import (
     read_tables,
     topics_of,
 )
-from tactile_push.report.data import ERROR, NOTE, WARNING, Episode, Run, Series
-from tactile_push.report.episodes import Label, episodes, joined
+from tactile_push.report.data import Episode, Run, Series
+from tactile_push.report.episodes import episodes, joined
+from tactile_push.report.labels import (
+    BOUNDS,
+    DOING,
+    STATUS_LASTS,
+    TICK_LASTS,
+    bound_label,
+    contradiction_label,
+    doing,
+    refusal_label,
+    stop_label,
+)
 from tactile_push.report.outcome import outcome_of
 from tactile_push.report.pushed import plant_in, pushed_object
 from tactile_push.report.scene import scene_of
-from tactile_push.tactile import REFUSALS
-
-# Where a series comes from: the first topic of these that the bag has, and the name there.
-SOURCES = {
-    'theta': ((CONTROLLER_STATE, 'theta'), (CONTACT, 'yaw'), (TRUE_STATE, 'theta')),
-    'theta_desired': ((CONTROLLER_STATE, 'theta_desired'),),
-    'phi': ((CONTROLLER_STATE, 'phi'), (TRUE_STATE, 'phi')),
-    'psi': ((CONTROLLER_STATE, 'psi'),),
-    'v_x': ((CONTROLLER_STATE, 'v_x'),),
-    'v_x_true': ((TRUE_STATE, 'v_x'),),
-    **{d: ((SENSING_STATE, d),) for d in ('d', 'd_lower', 'd_upper', 'd_least', 'd_most')},
-    'd_true': ((TRUE_STATE, 'd'),),
-    'silence': ((CONTROLLER_STATE, 'silence'),),
-    'finger_x': ((CONTROLLER_STATE, 'finger_x'), (TRUE_STATE, 'finger_x')),
-    'belt_travel': ((TRUE_STATE, 'belt_travel'),),
-    'object_x': ((TRUE_POSE, 'x'),),
-    'object_y': ((TRUE_POSE, 'y'),),
-    'object_angle': ((TRUE_POSE, 'yaw'),),
-    'estimate_x': ((OBJECT_POSE, 'x'),),
-    'estimate_y': ((OBJECT_POSE, 'y'),),
-}
-# What the controller can be doing, in words.
-DOING = (*STATES, *(f'{STOPPED}: {reason}' for reason in STOP_REASONS[1:]))
-# Refusals that are no fault: a finger in the air, and a reading that came twice.
-NO_FAULT = {'no contact': (NOTE, 'no contact'), 'not newer': None}
-TICK_LASTS = 1.0  # the last state of the controller counts for ten periods of the paper [s]
-STATUS_LASTS = 2.0  # a node's status counts for so long; it comes once a second [s]
+from tactile_push.report.shown import SOURCES
 
 
 def messages_shown(bag: BagReader) -> int:
@@ -143,9 +122,8 @@ def _series(tables: Mapping[str, Table]) -> dict[str, Series]:
         time = tables[TACTILE]['time']
         series['interval'] = Series(time[1:], np.diff(time))
     if {'state', 'stop_reason'} <= tables.get(CONTROLLER_STATE, {}).keys():
-        state, reason = tables[CONTROLLER_STATE]['state'], tables[CONTROLLER_STATE]['stop_reason']
-        doing = np.where(reason > 0.0, len(STATES) + reason - 1.0, state)
-        series['state'] = Series(tables[CONTROLLER_STATE]['time'], doing)
+        ticks = tables[CONTROLLER_STATE]
+        series['state'] = Series(ticks['time'], doing(ticks['state'], ticks['stop_reason']))
     return series
 
 
@@ -156,48 +134,25 @@ def _episodes(tables: Mapping[str, Table], statuses: Statuses) -> list[Episode]:
     found = []
     if {'state', 'stop_reason'} <= ticks.keys():
         labels = [
-            _doing(state, reason)
+            stop_label(state, reason)
             for state, reason in zip(ticks['state'], ticks['stop_reason'], strict=True)
         ]
         found += episodes('controller', ticks['time'], labels, TICK_LASTS)
-    for name, text in (('saturated', 'φ at its bound'), ('limited', 'v_x at its bound')):
+    for name in BOUNDS:
         if name in ticks:
-            flags: list[Label | None] = [
-                (NOTE, text) if flag > 0.0 else None for flag in ticks[name]
-            ]
+            flags = [bound_label(name, flag) for flag in ticks[name]]
             found += episodes('bounds', ticks['time'], flags, TICK_LASTS)
     if 'refusal' in readings:
-        refusals = [_refusal(number) for number in readings['refusal']]
+        refusals = [refusal_label(number) for number in readings['refusal']]
         found += episodes('readings', readings['time'], refusals, 0.0)
     if 'contradiction' in sensing:
-        contradictions = [_contradiction(number) for number in sensing['contradiction']]
+        contradictions = [contradiction_label(number) for number in sensing['contradiction']]
         found += episodes('object', sensing['time'], contradictions, TICK_LASTS)
     for name, said in statuses.items():
         said.sort(key=lambda status: status[0])
         times, levels = [time for time, _ in said], [label for _, label in said]
         found += episodes(name, times, levels, STATUS_LASTS)
     return found
-
-
-def _doing(state: float, reason: float) -> Label | None:
-    if 0.0 < reason < len(STOP_REASONS):
-        return ERROR, f'{STOPPED}: {STOP_REASONS[int(reason)]}'
-    if 0.0 <= state < len(STATES) and STATES[int(state)] in (INACTIVE, WAITING):
-        return NOTE, STATES[int(state)]
-    return None
-
-
-def _refusal(number: float) -> Label | None:
-    if not 0.0 < number < len(REFUSALS):
-        return None
-    reason = REFUSALS[int(number)]
-    return NO_FAULT.get(reason, (WARNING, f'refused: {reason}'))
-
-
-def _contradiction(number: float) -> Label | None:
-    if not 0.0 < number < len(CONTRADICTIONS):
-        return None
-    return ERROR, CONTRADICTIONS[int(number)]
 
 
 def _facts(bag: BagReader, duration: float) -> list[str]:

@@ -11,16 +11,18 @@ import numpy.typing as npt
 
 from tactile_push.interface import CONTACT, TRUE_POSE, TRUE_STATE
 from tactile_push.paper import FINGER_RADIUS
-from tactile_push.parameters import SimPlantParameters
+from tactile_push.parameters import ActiveSensingParameters, SimPlantParameters
 from tactile_push.parameters.sim_plant import rig_config
 from tactile_push.report.columns import Table
 from tactile_push.report.data import Scene
+from tactile_push.report.shown import MILLIMETRES, numbers
 
 if typing.TYPE_CHECKING:
     from tactile_push.simulation import RigConfig
 
 SPACING = 0.001  # of points on round outlines [m]: the paper's disk looks round
 NEAR = 0.001  # between contacts and a paper's outline [m]; block and disk differ by more
+CORNERS = 180  # of a circle: looks round
 TRIED = 50  # contacts, spread over the run; picked
 
 
@@ -43,6 +45,26 @@ def scene_of(plant: Mapping[str, object] | None, tables: Mapping[str, Table]) ->
         if _fits(config, radius, tables):
             return Scene(radius, _outline(config))
     return Scene(radius)
+
+
+def told_scene(p: ActiveSensingParameters) -> Scene:
+    """Return what active sensing was told of the object, and of the finger."""
+    corners = p.corners
+    if p.disk_radius > 0.0:
+        angles = np.linspace(0.0, 2.0 * math.pi, CORNERS, endpoint=False)
+        circle = p.disk_radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        corners = [(x, y) for x, y in circle.tolist()]
+    return Scene(p.finger_radius, corners)
+
+
+def scene_content(scene: Scene) -> dict[str, object]:
+    """Return a scene as the view's script takes it, in millimetres."""
+    mu_c = scene.mu_c
+    return {
+        'radius': scene.radius * MILLIMETRES,
+        'outline': [numbers(MILLIMETRES * np.array(point), 3) for point in scene.outline],
+        'mu_c': 'infinite' if mu_c == math.inf else mu_c,
+    }
 
 
 def _outline(config: 'RigConfig') -> list[tuple[float, float]]:

@@ -4,6 +4,7 @@
 
 import pytest
 
+from support.browser import launched
 from tactile_push.testing import NodeProcesses, Observer, Rig
 
 
@@ -20,3 +21,10 @@ def observer(tactile_observer: Observer) -> Observer:
 @pytest.fixture
 def rig(tactile_rig: Rig) -> Rig:
     return tactile_rig
+
+
+@pytest.fixture(scope='module')
+def browser():
+    """Return a headless Chromium that ends with the module's tests."""
+    with launched() as browser:
+        yield browser

@@ -4,14 +4,13 @@
 
 import contextlib
 import math
-import os
 import re
-import shutil
 import time
 import zlib
 
 import pytest
 
+from support.browser import DESKTOP, PATIENCE, PHONE, wait_for
 from support.pushed_bag import (
     DURATION,
     HOSTILE,
@@ -31,38 +30,8 @@ from tactile_push.bags import BagWriter
 from tactile_push.cli import main
 
 STATE = 'push_controller/state'
-NAMES = ('chromium', 'chromium-browser', 'google-chrome')
-# Alone: without accounts, updates and whatever else it asks the network for.
-ARGUMENTS = (
-    '--no-sandbox',
-    '--disable-gpu',
-    '--disable-background-networking',
-    '--disable-component-update',
-    '--disable-sync',
-    '--no-first-run',
-    '--disable-quic',
-)
-DESKTOP = {'width': 1280, 'height': 900}
-PHONE = {'width': 320, 'height': 640}
 MARGINS = 54.0, 10.0  # of the plots, left and right [px]
 READY = "performance.getEntriesByName('ready').length > 0"
-PATIENCE = 30.0  # [s]; a bound on hanging, not an expectation
-
-
-@pytest.fixture(scope='module')
-def browser():
-    """Return a headless Chromium that ends with the module's tests."""
-    playwright = pytest.importorskip('playwright.sync_api', reason='pip install playwright')
-    executable = next(filter(None, map(shutil.which, NAMES)), None)
-    if executable is None:
-        reason = f'no browser: install {", ".join(NAMES[:-1])} or {NAMES[-1]}'
-        if os.environ.get('CI') == 'true':
-            pytest.fail(reason)
-        pytest.skip(reason)
-    with playwright.sync_playwright() as started:
-        browser = started.chromium.launch(executable_path=executable, args=ARGUMENTS)
-        yield browser
-        browser.close()
 
 
 @pytest.fixture(scope='module')
@@ -111,14 +80,6 @@ def page(browser, page_file):
     """Return a page for all tests that read it or move its time, and leave it so."""
     with visits(browser, page_file) as open_page:
         yield open_page()
-
-
-def wait_for(page, condition):
-    """Wait until an expression is true; the page's policy forbids to do so in the page itself."""
-    deadline = time.monotonic() + PATIENCE
-    while not page.evaluate(condition):
-        assert time.monotonic() < deadline, condition
-        page.wait_for_timeout(20)
 
 
 def double_click(page, t, part, condition):

@@ -41,19 +41,41 @@ function drawContact(theta, phi) {
   }
 }
 
+function at(k, ...names) {
+  return names.map((name) => frames[name][k]);
+}
+
+// Where the centre of mass may lie: along the edge, as d may.
+function drawInterval(id, [x, y, theta, d, ...bounds]) {
+  const known = ![x, y, theta, d, ...bounds].includes(null);
+  visible([id], known);
+  if (known) line(id, ...bounds.map((bound) => ray(theta * Math.PI / 180, d - bound, [x, y])));
+}
+
 function drawFrame(k) {
   drawContact(frames.theta[k], frames.phi[k]);
-  const pose = [frames.object_x[k], frames.object_y[k], frames.object_angle[k]];
-  visible(['object'], !pose.includes(null));
-  if (!pose.includes(null)) {
-    set('object', { transform: `translate(${pose[0]} ${pose[1]}) rotate(${pose[2]})` });
+  const estimate = at(k, 'estimate_x', 'estimate_y', 'estimate_angle');
+  const pose = simulated() ? at(k, 'object_x', 'object_y', 'object_angle') : estimate;
+  const placed = !pose.includes(null) && (simulated() || scene.outline.length > 0);
+  visible(['object'], placed);
+  if (placed) {
+    const [x, y, angle] = pose;
+    set('object', { transform: `translate(${x} ${y}) rotate(${angle})` });
   }
-  const estimate = [frames.estimate_x[k], frames.estimate_y[k]];
-  visible(['estimate'], !estimate.includes(null));
-  if (!estimate.includes(null)) set('estimate', { transform: `translate(${estimate})` });
+  const [x, y] = estimate;
+  visible(['estimate'], x !== null && y !== null);
+  if (x !== null && y !== null) set('estimate', { transform: `translate(${x},${y})` });
+  const centre = at(k, 'estimate_x', 'estimate_y', 'theta', 'd');
+  drawInterval('likely', [...centre, ...at(k, 'd_lower', 'd_upper')]);
+  drawInterval('guaranteed', [...centre, ...at(k, 'd_least', 'd_most')]);
   // The belt passes under the finger, and the finger moves across it.
   const shift = [-(frames.finger_x[k] ?? 0), frames.belt_travel[k] ?? 0];
   set('belt', { patternTransform: `translate(${shift})` });
+}
+
+// Whether somebody tells where the object is.
+function simulated() {
+  return frames.object_x.some((x) => x !== null);
 }
 
 // Make room for the object wherever it touches, and a scale that fits.
@@ -73,13 +95,16 @@ function prepareView() {
   element('scale-text').textContent = scale < 10 ? `${scale} mm` : `${scale / 10} cm`;
   set('finger', { r: scene.radius });
   if (scene.outline.length) set('outline', { d: `M${scene.outline.join('L')}Z` });
+  element('object').classList.toggle('estimated', !simulated());
+  const estimated = frames.estimate_x.some((x) => x !== null);
   const entries = [
     [true, 'blue', '', 'contact normal'],
     [true, 'orange', '', 'push ray, φ'],
     [true, 'green', 'dashed', 'pushed edge or tangent, θ'],
     [scene.mu_c !== null, 'warning', 'area', 'friction cone'],
-    [scene.outline.length, 'text', '', 'object and its centre of mass (simulator)'],
-    [frames.estimate_x.some((x) => x !== null), 'green', '', '× centre of mass, estimated'],
+    [scene.outline.length && simulated(), 'text', '', 'object and its centre of mass (simulator)'],
+    [scene.outline.length && estimated && !simulated(), 'green', 'dashed', 'object, estimated'],
+    [estimated, 'green', '', '× centre of mass, estimated, with the 95 % and the guaranteed interval'],
   ];
   for (const [there, tint, look, text] of entries) {
     if (!there) continue;
