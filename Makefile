@@ -63,7 +63,7 @@ $(READY): setup.py setup.cfg pyproject.toml tactile_push/interface.py
 	@$(PYTHON) -c 'import venv, ensurepip' 2>/dev/null || \
 	  { echo "make: $(PYTHON) has no venv module; install it (Debian, Ubuntu: apt install python3-venv)" >&2; exit 2; }
 	$(PYTHON) -m venv $(VENV)
-	$(INSTALL) '.[ros]'
+	$(INSTALL) '.[ros,watch]'
 	touch $@
 
 $(TEST_READY): $(READY)

@@ -14,6 +14,7 @@ NODES = runpy.run_path(str(Path(__file__).parent / NAME / 'interface.py'))['NODE
 
 # Wheels of ROS 2 exist for these machines alone; elsewhere ROS comes from a workspace.
 WHEELS = "platform_system == 'Linux' and platform_machine == 'x86_64' and python_version < '3.14'"
+AIOHTTP = 'aiohttp>=3.9,<4'
 MUJOCO = 'mujoco>=3.2,<5'  # for 0.1 GB, and 2 s with a fast connection
 CAMERA = ['opencv-python-headless>=4.8,<6', 'scipy>=1.11,<2']
 
@@ -25,7 +26,7 @@ setup(
     license='Apache-2.0',
     python_requires='>=3.10',
     packages=find_packages(include=[NAME, f'{NAME}.*']),
-    package_data={f'{NAME}.report': ['assets/*']},
+    package_data={f'{NAME}.{room}': ['assets/*'] for room in ('report', 'watching')},
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
         (f'share/{NAME}', ['package.xml']),
@@ -60,6 +61,7 @@ setup(
         ],
         'test': [
             *CAMERA,
+            AIOHTTP,
             'colcon-core>=0.18,<1',
             'colcon-python-setup-py>=0.2.9,<1',
             'colcon-ros>=0.5,<1',
@@ -78,6 +80,7 @@ setup(
             'setuptools<80',
             'xacro>=2,<3',
         ],
+        'watch': [AIOHTTP],
     },
     zip_safe=False,
     entry_points={

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The demonstration: both rigs of the paper, as real nodes against a simulated plant."""
 
+import contextlib
 import os
 import shutil
 import tempfile
@@ -9,6 +10,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +24,7 @@ from tactile_push.interface import (
     CONTACT_GEOMETRY,
     CONTROLLER_STATE,
     EXPERIMENT,
+    LIVE_PAGE,
     PUSH_CONTROLLER,
     SENSING_STATE,
     SENSOR_DRIVER,
@@ -38,11 +41,12 @@ from tactile_push.paper import (
     PAPER,
     PaperFigures,
 )
-from tactile_push.parameters import config_file
+from tactile_push.parameters import LivePageParameters, config_file
 from tactile_push.parameters.sensor_kinds import SENSOR_KINDS
 from tactile_push.report.columns import Column, read_tables, topics_of
 from tactile_push.report.merit import PushFigures, known_step, push_figures
 from tactile_push.testing.processes import NodeProcesses
+from tactile_push.watching.listening import listen
 
 STEPS = 450  # the paper's figures 9 and 10 settle by step 173 and translate from step 400 on
 REAL_TIME_FACTOR = 20.0  # picked; nodes that cannot keep up make the run slower, not different
@@ -88,24 +92,33 @@ class DemoError(Exception):
     """The demonstration could not be run; the message says why."""
 
 
+def _keep_quiet(address: str) -> None:
+    pass
+
+
 def run_demo(
     out: Path,
     progress: Callable[[str, int], None],
     plant: str = SIM_PLANT,
     sensor: str = SENTENCE,
+    show: Callable[[str], None] = _keep_quiet,
 ) -> dict[str, RigResult]:
     """Run both rigs, record them, draw their history and return the results by rig.
 
     The bags NAME/ and the picture history.png go to the folder `out` and replace those of an
     earlier demonstration. `progress` is told the rig's name and the number of steps done. `plant`
-    is the node that simulates, `sensor` one of `SENSOR_KINDS`. Raises a `DemoError` if a process
-    ends early or nothing moves on, and an OSError if the folder cannot be written.
+    is the node that simulates, `sensor` one of `SENSOR_KINDS`. `show` is told the address of a page
+    that shows the rigs, if there is one: the demonstration needs none. Raises a `DemoError` if a
+    process ends early or nothing moves on, and an OSError if the folder cannot be written.
     """
     out.mkdir(parents=True, exist_ok=True)
     results = {}
     panels = {}
+    page = _page_port()
     for name, paper in RIGS.items():
-        wall_seconds = _run_rig(plant, sensor, name, out / name, partial(progress, name))
+        follow = partial(_follow, progress=partial(progress, name), show=show)
+        wall_seconds = _run_rig(plant, sensor, name, out / name, page, follow)
+        show = _keep_quiet  # the page of the next rig has the same address
         results[name], theta, phi = _evaluate(paper, out / name, wall_seconds)
         settled = results[name].push.settle_step
         panels[TITLES[name]] = theta, phi, paper.theta_desired, paper.band, settled
@@ -113,8 +126,23 @@ def run_demo(
     return results
 
 
+def _page_port() -> int | None:
+    """Return a port for the page that shows the rigs, None if there can be no page."""
+    settings = LivePageParameters()
+    if find_spec('aiohttp') is not None:
+        for port in (settings.port, 0):
+            with contextlib.suppress(OSError), listen(settings.host, port) as free:
+                return int(free.getsockname()[1])
+    return None
+
+
 def _run_rig(
-    plant: str, sensor: str, name: str, bag: Path, progress: Callable[[int], None]
+    plant: str,
+    sensor: str,
+    name: str,
+    bag: Path,
+    page: int | None,
+    follow: Callable[[NodeProcesses], None],
 ) -> float:
     """Run one rig into a bag and return the time that it took [s]."""
     start = time.monotonic()
@@ -138,13 +166,20 @@ def _run_rig(
             nodes.start(PUSH_CONTROLLER, {'autostart': False, **simulated}, config=config)
             nodes.start(ACTIVE_SENSING, {**kind.sensing, **simulated}, config=config)
             nodes.start(EXPERIMENT, {'bag': str(bag), 'steps': STEPS, **simulated})
-            _follow(nodes, progress)
+            if page is not None:
+                nodes.start(LIVE_PAGE, {'port': page})
+            follow(nodes)
     return time.monotonic() - start
 
 
-def _follow(nodes: NodeProcesses, progress: Callable[[int], None]) -> None:
+def _follow(
+    nodes: NodeProcesses,
+    progress: Callable[[int], None],
+    show: Callable[[str], None] = _keep_quiet,
+) -> None:
     """Wait for the end of the experiment."""
     experiment = nodes.running[EXPERIMENT]
+    address = ''
     steps = 0
     moved = time.monotonic()
     while experiment.poll() is None:
@@ -154,8 +189,13 @@ def _follow(nodes: NodeProcesses, progress: Callable[[int], None]) -> None:
             steps = int(numbers[-1])
             moved = time.monotonic()
             progress(steps)
+        if LIVE_PAGE in nodes.running and not address:
+            said = nodes.log(LIVE_PAGE).read_text().split()
+            address = next((word for word in said if word.startswith('http:')), '')
+            if address:
+                show(address)
         for name, process in nodes.running.items():
-            if process.poll() not in (None, 0):
+            if name != LIVE_PAGE and process.poll() not in (None, 0):
                 last_words = nodes.log(name).read_text().strip().splitlines()[-1:]
                 raise DemoError(f'{name} ended: {"".join(last_words) or "without a word"}')
         waited = time.monotonic() - moved

@@ -73,6 +73,7 @@ PLANTS = (SIM_PLANT, MUJOCO_PLANT)  # one of which takes the place of the hardwa
 EXPERIMENT = 'experiment'
 BAG_RECORDER = 'bag_recorder'
 BAG_PLAYER = 'bag_player'
+LIVE_PAGE = 'live_page'
 
 # Topics.
 WRENCH = 'wrench'
@@ -154,6 +155,7 @@ NODES = {
         NodeSummary(EXPERIMENT, 'starts the controller, records a run and ends after N steps'),
         NodeSummary(BAG_RECORDER, 'records topics into a bag'),
         NodeSummary(BAG_PLAYER, 'publishes the messages of a bag with their timing'),
+        NodeSummary(LIVE_PAGE, 'shows what the nodes say on a page for browsers'),
     )
 }
 
@@ -206,7 +208,7 @@ TOPICS = {
                 Field('distal_joint', 'rad', 'angle of the second moving joint'),
             ),
         ),
-        Topic(CONTACT, POSE_TYPE, (CONTACT_GEOMETRY,), (PUSH_CONTROLLER, *PLANTS),
+        Topic(CONTACT, POSE_TYPE, (CONTACT_GEOMETRY,), (PUSH_CONTROLLER, *PLANTS, LIVE_PAGE),
             'in `finger_disk`: the position is the contact point [m], the yaw is theta [rad]; '
             'stamped as the reading; nothing is published without a contact',
         ),
@@ -224,7 +226,8 @@ TOPICS = {
             'in `finger_base`: `linear.x` [m/s]; nothing before the first contact, 0 when the '
             'contact is lost',
         ),
-        Topic(CONTROLLER_STATE, JOINT_STATE_TYPE, (PUSH_CONTROLLER,), (ACTIVE_SENSING,),
+        Topic(CONTROLLER_STATE, JOINT_STATE_TYPE, (PUSH_CONTROLLER,),
+            (ACTIVE_SENSING, LIVE_PAGE),
             'everything that one control period used and gave',
             (
                 Field('theta', 'rad', 'angle of the pushed edge'),
@@ -248,12 +251,12 @@ TOPICS = {
                 Field('trim', 'rad', 'by how much steadying has moved theta_desired'),
             ),
         ),
-        Topic(OBJECT_POSE, UNCERTAIN_POSE_TYPE, (ACTIVE_SENSING,), (),
+        Topic(OBJECT_POSE, UNCERTAIN_POSE_TYPE, (ACTIVE_SENSING,), (LIVE_PAGE,),
             "in `finger_disk`: estimate of the object's centre of mass and orientation with its "
             'covariance; stamped as the reading; nothing is published while nothing is known or '
             'readings contradict the object',
         ),
-        Topic(SENSING_STATE, JOINT_STATE_TYPE, (ACTIVE_SENSING,), (),
+        Topic(SENSING_STATE, JOINT_STATE_TYPE, (ACTIVE_SENSING,), (LIVE_PAGE,),
             'the estimate after each control period, as of the last reading; NaN is unknown',
             (
                 *_estimated('d', 'm', 'contact location along the edge'),
@@ -274,10 +277,10 @@ TOPICS = {
             'guaranteed interval; published while somebody subscribes',
             recorded=False,
         ),
-        Topic(TRUE_POSE, POSE_TYPE, PLANTS, (),
+        Topic(TRUE_POSE, POSE_TYPE, PLANTS, (LIVE_PAGE,),
             "in `finger_disk`: the object's true centre of mass and orientation",
         ),
-        Topic(TRUE_STATE, JOINT_STATE_TYPE, PLANTS, (),
+        Topic(TRUE_STATE, JOINT_STATE_TYPE, PLANTS, (LIVE_PAGE,),
             'what only the simulator knows',
             (
                 Field('theta', 'rad', 'true angle of the edge; NaN without a contact'),
@@ -300,7 +303,7 @@ TOPICS = {
             "simulated time, with the parameter `publish_clock`; a bag's time, with `clock`; nodes "
             'with `use_sim_time` follow it',
         ),
-        Topic(DIAGNOSTICS, 'diagnostic_msgs/msg/DiagnosticArray', tuple(NODES), (),
+        Topic(DIAGNOSTICS, 'diagnostic_msgs/msg/DiagnosticArray', tuple(NODES), (LIVE_PAGE,),
             'health of each node with ages, counts by reason and their rates; once a second, and '
             'at once when the level changes',
         ),

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the demonstration makes of its results, and of nodes that end early or stand still."""
 
+import contextlib
 import math
 import subprocess
 import sys
@@ -16,6 +17,8 @@ from support.demo_results import results
 from tactile_push import demo
 from tactile_push.control import PUSHING, STATES
 from tactile_push.interface import CONTROLLER_STATE, EXPERIMENT, SENSING_STATE, TRUE_STATE
+from tactile_push.parameters import LivePageParameters
+from tactile_push.watching.listening import listen
 
 
 def test_json_has_it():
@@ -105,6 +108,36 @@ def test_node_that_ends_early_fails_the_demonstration_with_its_last_line(tmp_pat
     nodes.log('sensor_driver').write_text(log)
     with pytest.raises(demo.DemoError, match=f'^sensor_driver ended: {words}$'):
         demo._follow(nodes, lambda steps: None)
+
+
+def test_page_is_told_of_once_and_its_end_is_none_of_the_demonstration(tmp_path):
+    nodes = Nodes(tmp_path, {'sim_plant': None, 'live_page': 1}, ['10', '20', '30'])
+    nodes.log('live_page').write_text('[INFO]: showing the nodes on http://127.0.0.1:8765/\n')
+    told, shown = [], []
+    demo._follow(nodes, told.append, shown.append)
+    assert (told, shown) == ([10, 20, 30], ['http://127.0.0.1:8765/'])
+
+
+def test_page_that_never_comes_is_not_told_of(tmp_path):
+    nodes = Nodes(tmp_path, {'live_page': 2}, ['10', '20'])
+    nodes.log('live_page').write_text('live_page: parameter host, port: Address already in use\n')
+    told = []
+    demo._follow(nodes, told.append, pytest.fail)
+    assert told == [10, 20]
+
+
+def test_page_has_another_port_if_its_own_is_taken():
+    pytest.importorskip('aiohttp', reason="pip install 'tactile_push[watch]'")
+    settings = LivePageParameters()
+    with contextlib.ExitStack() as stack:
+        with contextlib.suppress(OSError):  # somebody has taken it already
+            stack.enter_context(listen(settings.host, settings.port))
+        assert demo._page_port() not in (None, 0, settings.port)
+
+
+def test_without_its_library_there_is_no_page(monkeypatch):
+    monkeypatch.setitem(sys.modules, 'aiohttp', None)
+    assert demo._page_port() is None
 
 
 @pytest.fixture

@@ -110,6 +110,7 @@ KEYS = {
     'mcap_ros2': 'mcap-ros2-support',
     'mpl_toolkits': 'python3-matplotlib',
     'xacro': 'xacro',
+    'yarl': 'python3-aiohttp',
     'zstandard': 'mcap-ros2-support',
 }
 NO_KEY = {'mujoco', 'plotly'}  # the manual says how to install it
@@ -125,11 +126,12 @@ def test_setup_requires_what_the_package_imports_and_nothing_else(setup):
     pytest.importorskip('plotly')
     projects = packages_distributions()
     modules = {name for name in foreign(ROOT) if not ROS.fullmatch(name)}
-    modules -= {'pytest', 'mujoco', 'xacro', 'cv2', 'scipy'}  # of the extras
+    modules -= {'pytest', 'mujoco', 'xacro', 'cv2', 'scipy', 'aiohttp', 'yarl'}  # of the extras
     needed = {projects[name][0].lower().replace('_', '-') for name in modules}
     assert installed(setup['install_requires']) == needed
     assert installed(setup['extras_require']['mujoco']) == {'mujoco'}
     assert installed(setup['extras_require']['camera']) == {'opencv-python-headless', 'scipy'}
+    assert installed(setup['extras_require']['watch']) == {'aiohttp'}
     assert all('x86_64' in line for line in setup['extras_require']['ros'])
     assert installed(setup['extras_require']['ros']) == {
         'ros-jazzy-common-interfaces',

@@ -154,6 +154,13 @@ def steps(text: str) -> int:
     return int(text)
 
 
+def port(text: str) -> int:
+    """Read the number of a port, 0 for any that is free."""
+    if not (text.isascii() and text.isdigit() and len(text) <= 5 and int(text) <= 65535):
+        raise argparse.ArgumentTypeError(f'expected a whole number, 0 to 65535, got {text}')
+    return int(text)
+
+
 def edge(text: str) -> int:
     """Read the number of an edge, -1 for an unknown one."""
     try:

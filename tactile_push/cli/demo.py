@@ -83,6 +83,7 @@ def _demo(options: argparse.Namespace) -> int:
                     lambda name, steps: bar.update(tasks[name], completed=min(steps, demo.STEPS)),
                     plant,
                     options.sensor,
+                    lambda address: bar.console.print(f'to watch: {address}', soft_wrap=True),
                 )
     except demo.DemoError as error:
         raise Refused(error, status=1) from None

@@ -18,6 +18,7 @@ from tactile_push.interface import (
     COMMAND,
     CONTACT,
     CONTROLLER_STATE,
+    LIVE_PAGE,
     PARAMETER_EVENTS,
     RECORDED,
     SENSING_STATE,
@@ -91,17 +92,21 @@ class Experiment(Node):
     def _ready(self) -> bool:
         """Return whether all is recorded, and somebody else hears contacts and control periods."""
         contact = self.resolve_topic_name(CONTACT)
-        state = self.resolve_topic_name(CONTROLLER_STATE)
         return (
             (self._awaited | self._more()).isdisjoint(self._recording.recorder.missing())
             and self._recording.recorder.counts[contact] > 0
-            and self.count_subscribers(contact) > 1
-            and self.count_subscribers(state) > 1
+            and self._somebody_takes(CONTACT)
+            and self._somebody_takes(CONTROLLER_STATE)
         )
 
     def _more(self) -> set[str]:
         """Return the topics of nodes that not every experiment has and this one does."""
         return {self.resolve_topic_name(topic) for topic in MORE if self.count_publishers(topic)}
+
+    def _somebody_takes(self, topic: str) -> bool:
+        """Return whether somebody hears a topic who does something with it."""
+        hearers = self.get_subscriptions_info_by_topic(self.resolve_topic_name(topic))
+        return not {hearer.node_name for hearer in hearers} <= {self.get_name(), LIVE_PAGE}
 
     def _report(self) -> None:
         # What is sensed comes last; on a loaded machine it may lag behind.

@@ -10,6 +10,7 @@ from tactile_push.parameters.camera_sensor import CameraSensorParameters
 from tactile_push.parameters.config_file import config_file
 from tactile_push.parameters.contact_geometry import ContactGeometryParameters
 from tactile_push.parameters.experiment import ExperimentParameters
+from tactile_push.parameters.live_page import LivePageParameters
 from tactile_push.parameters.mujoco_plant import MujocoPlantParameters
 from tactile_push.parameters.parameter import NodeParameters, Parameter
 from tactile_push.parameters.push_controller import PushControllerParameters
@@ -29,6 +30,7 @@ PARAMETERS: dict[str, type[NodeParameters]] = {
     interface.EXPERIMENT: ExperimentParameters,
     interface.BAG_RECORDER: BagRecorderParameters,
     interface.BAG_PLAYER: BagPlayerParameters,
+    interface.LIVE_PAGE: LivePageParameters,
 }
 """The parameters of each node by the name of its executable."""
 
@@ -40,6 +42,7 @@ __all__ = [
     'CameraSensorParameters',
     'ContactGeometryParameters',
     'ExperimentParameters',
+    'LivePageParameters',
     'MujocoPlantParameters',
     'NodeParameters',
     'Parameter',

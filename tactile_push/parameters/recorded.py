@@ -30,6 +30,11 @@ def recorded_parameters(
         content = None
     if not isinstance(content, dict):
         return None, ['the recorded parameters are left out: expected JSON, node to values']
+    return usable_parameters(content)
+
+
+def usable_parameters(content: Mapping[str, Any]) -> tuple[dict[str, dict[str, Any]], list[str]]:
+    """Return parameters by node without those of no use, and a line for each that is left out."""
     found: dict[str, dict[str, Any]] = {}
     left_out = []
     for name, values in content.items():

@@ -51,7 +51,7 @@ def node_and_parameters(command):
     """Return the node and its parameters as ROS reads them."""
     option, module, ros_args, *words = command[1:]
     assert (option, ros_args) == ('-m', '--ros-args')
-    assert set(words[::2]) <= {'-p'}
+    assert set(words[::2]) <= {'-p', '-r'}
     given = (word.partition(':=') for word in words[1::2])
     parameters = {name: yaml.safe_load(value) for name, _, value in given}
     return module.removeprefix('tactile_push.nodes.'), parameters

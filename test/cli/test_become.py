@@ -43,6 +43,15 @@ def test_process_and_exit_status_are_those_of_the_node(tmp_path):
     ]
 
 
+def test_more_ros_arguments_stand_before_the_parameters(monkeypatch):
+    commands = []
+    monkeypatch.setattr(os, 'execv', lambda program, command: commands.append(command))
+    module.become('live_page', {'port': 0}, ['-r', '__ns:=/left'])
+    assert commands[0][2:] == [
+        *('tactile_push.nodes.live_page', '--ros-args', '-r', '__ns:=/left', '-p', 'port:=0'),
+    ]
+
+
 @pytest.mark.parametrize(
     'value', ['yes', 'null', '1', "it's", 'a: b', '', 1, 2.0, -math.inf, True, ['1', 'off']]
 )

@@ -3,12 +3,14 @@
 """The experiment's node: how it starts the controller, and what it does not begin with."""
 
 import pytest
+import rclpy
+from geometry_msgs.msg import PoseStamped
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
 from sensor_msgs.msg import JointState
 
 from tactile_push.bags import BagReader
-from tactile_push.interface import RECORDED, TACTILE
+from tactile_push.interface import CONTACT, LIVE_PAGE, RECORDED, TACTILE
 from tactile_push.nodes.experiment import AWAITED, MORE, Experiment
 from tactile_push.nodes.ros.parameters import ConfigurationError
 
@@ -42,6 +44,17 @@ def test_the_controller_is_configured_and_not_activated_before_all_is_recorded(b
     assert '/contact' in recorder.missing()
     assert controller.asked == [Transition.TRANSITION_CONFIGURE]
     assert bench.node.context.ok()
+
+
+def test_who_only_watches_takes_no_contacts(bench, tmp_path):
+    node = bench.start(Experiment, bag=tmp_path / 'bag')
+    watcher = rclpy.create_node(LIVE_PAGE, use_global_arguments=False)
+    watcher.create_subscription(PoseStamped, CONTACT, print, 1)
+    bench.until(lambda: node.count_subscribers(CONTACT) == 1)
+    assert not node._somebody_takes(CONTACT)
+    bench.hear(PoseStamped, CONTACT)
+    assert node._somebody_takes(CONTACT)
+    watcher.destroy_node()
 
 
 def test_a_controller_that_refuses_ends_the_experiment(bench, tmp_path):

@@ -22,6 +22,7 @@ EXECUTABLES = {
     'experiment',
     'bag_recorder',
     'bag_player',
+    'live_page',
 }
 
 
@@ -60,8 +61,10 @@ def test_colcon_build_gives_runnable_executables(tmp_path: Path):
         assert (share / file).exists(), file
     assert (install / 'share/ament_index/resource_index/packages/tactile_push').exists()
     (library,) = install.glob('lib/python*/site-packages')
-    for name in ('page.html', 'page.css', 'page.js', 'plots.js', 'view.js'):
-        assert (library / 'tactile_push' / 'report' / 'assets' / name).exists(), name
+    for room in ('report', 'watching'):
+        assets = {file.name for file in (ROOT / 'tactile_push' / room / 'assets').iterdir()}
+        installed = library / 'tactile_push' / room / 'assets'
+        assert {file.name for file in installed.iterdir()} == assets != set()
     environment = {**os.environ, 'PYTHONPATH': str(library)}
     for name in EXECUTABLES:
         run = subprocess.run(

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +29,8 @@ def test_demo_settles_both_rigs_and_leaves_a_picture_and_bags(tmp_path: Path):
     out = tmp_path / 'out'
     run = subprocess.run([*COMMAND, '-o', str(out)], capture_output=True, text=True, timeout=180)
     assert run.returncode == 0, run.stderr
+    has_page = find_spec('aiohttp') is not None
+    assert run.stderr.count('to watch: http://127.0.0.1:') == has_page
     rigs = json.loads(run.stdout)['rigs']
     assert set(rigs) == {'block', 'disk'}
     # Near the step response that plane geometry gives for a tip that turns.

@@ -15,7 +15,6 @@ from rclpy.clock import Clock as NodeClock
 from rclpy.clock_type import ClockType
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
@@ -39,7 +38,7 @@ from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Hea
 from tactile_push.nodes.ros.markers import rig_markers
 from tactile_push.nodes.ros.messages import publish
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare, refusing
-from tactile_push.nodes.ros.qos import PUBLISHED
+from tactile_push.nodes.ros.qos import FRESHEST, PUBLISHED
 from tactile_push.parameters.sim_plant import SimPlantParameters, faults, faults_on, mount
 from tactile_push.pipeline.messages import joint_state_fields, pose_fields, wrench_fields
 from tactile_push.simulation import ForceReadout, Readout, Rig, serve
@@ -52,7 +51,6 @@ if TYPE_CHECKING:
 
 P = TypeVar('P', bound=SimPlantParameters)
 
-FRESHEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 MARKER_RATE = 10.0  # [Hz]; fluent enough to the eye
 REPEAT_PERIOD = 0.01  # of time and reading while time stands still [s]; late by no more; picked
 LOOK_PERIOD = 1.0  # at who commands [s]; as often as diagnostics report it

@@ -11,3 +11,5 @@ PUBLISHED = QoSProfile(depth=1000)
 SENSOR_DATA = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
 # Images, of which one that waited behind others would be late.
 IMAGES = QoSProfile(depth=2, reliability=ReliabilityPolicy.BEST_EFFORT)
+# The newest message alone.
+FRESHEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
