@@ -6,12 +6,14 @@ import csv
 import io
 import math
 from pathlib import Path
+from textwrap import shorten
 from typing import NamedTuple
 
 from tactile_push.small_files import read_small_file
 
 AZIMUTH, ELEVATION = 'azimuth_deg', 'elevation_deg'
 FORCE, FILE = 'normal_force', 'file'
+MOST_LETTERS = 80  # of a table's first line in a message
 
 
 class KnownTouch(NamedTuple):
@@ -55,9 +57,8 @@ def read_table(file: Path) -> list[KnownTouch]:
         names = rows.fieldnames or []
         for name in (AZIMUTH, ELEVATION):
             if name not in names:
-                raise ValueError(
-                    f'{file}: expected a column {name}, got {", ".join(names) or "none"}'
-                )
+                got = shorten(', '.join(names), MOST_LETTERS) or 'none'
+                raise ValueError(f'{file}: expected a column {name}, got {got}')
         return [_touch(row, f'{file}: line {rows.line_num}') for row in rows]
     except (csv.Error, UnicodeDecodeError) as error:
         raise ValueError(f'{file}: no CSV: {error}') from None

@@ -191,7 +191,12 @@ class CameraSensor(ManagedNode):
 
 def main() -> int:
     """Run the node as a process."""
-    return 2 if opencv_is_missing(CAMERA_SENSOR, 'cv2') else run(CameraSensor)
+    if opencv_is_missing(CAMERA_SENSOR, 'cv2'):
+        return 2
+    import cv2
+
+    cv2.setNumThreads(1)  # is fast enough, and leaves the other cores to the other nodes
+    return run(CameraSensor)
 
 
 if __name__ == '__main__':

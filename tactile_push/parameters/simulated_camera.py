@@ -5,6 +5,8 @@
 import math
 from typing import TYPE_CHECKING, Any
 
+from tactile_push.parameters.camera_sensor import NO_RIM
+
 if TYPE_CHECKING:
     from tactile_push.simulation.dome_image import DomeView
 
@@ -20,6 +22,8 @@ CALIBRATION: dict[str, Any] = {
     'rotation': [math.pi, 0.0, 0.0],
     'radial': [FOCAL_LENGTH, -FOCAL_LENGTH / 24.0, FOCAL_LENGTH / 1920.0],
     'eye': list(EYE),
+    'reach': math.pi / 2.0,
+    'rim': NO_RIM,
 }
 
 

@@ -93,9 +93,8 @@ SPOILED = DomeView(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize('lens', ['equisolid', 'pinhole'])
-def test_spoiled_images_of_a_camera_beside_the_axis_give_directions_to_half_a_degree(lens):
-    dome = DomeImages(replace(SPOILED, lens=lens, focal_length=105.0), seed=3)
+def test_spoiled_images_of_a_camera_beside_the_axis_give_directions_to_half_a_degree():
+    dome = DomeImages(SPOILED, seed=3)
     reference = mean_image(dome.image(NO_CONTACT) for _ in range(10))
     known = [KnownTouch(*at, 1.0, '') for at in suggested_touches()]
     pictures = [dome.image(Reading(*touch[:3])) for touch in known]

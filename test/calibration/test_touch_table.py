@@ -45,6 +45,7 @@ def test_columns_may_come_in_any_order_with_blanks_and_others(table):
     [
         ('', 'expected a column azimuth_deg, got none'),
         ('azimuth,elevation\n', 'expected a column azimuth_deg, got azimuth, elevation'),
+        ('x' * 1000, r'got \[\.\.\.\]$'),
         ('azimuth_deg,elevation_deg\n0,91\n', "line 2: elevation_deg: expected 0 to 90, got '91'"),
         ('azimuth_deg,elevation_deg\n0,9\nx,9\n', 'line 3: azimuth_deg: expected -180 to 180, got'),
         ('azimuth_deg,elevation_deg\nnan,9\n', "azimuth_deg: expected -180 to 180, got 'nan'"),

@@ -90,6 +90,8 @@ def uses(thing: Path, folder: Path) -> Iterator[Words]:
     yield *COMMAND, 'simulate', '--steps', 3, '--support', thing
     yield *COMMAND, 'simulate', '--steps', 3, '--json', thing
     yield *COMMAND, 'record', '-o', thing / 'out', '--max-size', 'much'
+    yield *COMMAND, 'calibrate', 'camera', thing, '-o', folder / 'camera.yaml'
+    yield *COMMAND, 'calibrate', 'wrench', BAG, '--touches', thing, '-o', folder / 'wrench.yaml'
     for node in sorted(NODES):
         begin = (sys.executable, '-m', f'tactile_push.nodes.{node}', '--ros-args')
         yield *begin, '--params-file', thing, '-p', 'use_sim_time:=much'

@@ -67,6 +67,11 @@ class Camera:
         self.bench.until(lambda: self.bench.health == health, lambda: self.send(**touch))
 
 
+def touches(bench):
+    """Return the readings heard so far that have a contact."""
+    return [message for message in bench.heard[TACTILE] if math.isfinite(message.position[0])]
+
+
 def test_topics_are_those_of_the_interface(bench):
     bench.start(CameraSensor, **parameters())
     gives, takes = declared_topics(CAMERA_SENSOR)
@@ -81,8 +86,8 @@ def test_images_become_readings_with_their_stamps(bench):
     assert (answer.success, answer.message) == (True, '')
     camera.until((OK, 'no contact'))
     camera.until((OK, 'contact'), **TOUCH)
-    bench.until(lambda: math.isfinite(bench.heard[TACTILE][-1].position[0]))
-    message = bench.heard[TACTILE][-1]
+    bench.until(lambda: touches(bench))
+    message = touches(bench)[-1]
     assert message.name == ['azimuth', 'elevation', 'normal_force']
     assert list(message.position[:2]) == pytest.approx([0.5, 0.9], abs=0.02)
     stamp = message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
@@ -105,10 +110,7 @@ def test_compressed_images_are_taken_instead_if_that_is_asked_for(bench):
     bench.until(lambda: node._counted['images'] >= 12 and client.service_is_ready(), send)
     answer = client.call_async(Trigger.Request())
     bench.until(answer.done, send)
-    bench.until(
-        lambda: bench.heard[TACTILE] and math.isfinite(bench.heard[TACTILE][-1].position[0]),
-        lambda: send(**TOUCH),
-    )
+    bench.until(lambda: touches(bench), lambda: send(**TOUCH))
 
 
 def test_reference_in_contact_is_refused_with_the_reason(bench):
