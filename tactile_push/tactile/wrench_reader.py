@@ -20,15 +20,16 @@ ANOTHER_FRAME = 'another frame'
 GAP = 'too long after the one before'
 TORSION = 'torsion'
 BEHIND = 'contact behind the tip'
+NOT_FINITE, SATURATED, NOT_NEWER = 'not finite', 'saturated', 'not newer'
 WRENCH_REFUSALS = (  # why a wrench is refused
     NOT_TARED,
     ANOTHER_FRAME,
     GAP,
     TORSION,
     BEHIND,
-    'not finite',
-    'saturated',
-    'not newer',
+    NOT_FINITE,
+    SATURATED,
+    NOT_NEWER,
 )
 
 Vector = npt.NDArray[np.float64]
@@ -233,16 +234,16 @@ class WrenchReader:
     def _check(self, time: float, frame: str, wrench: Vector) -> None:
         """Refuse what must not even be remembered."""
         if not (np.isfinite(wrench).all() and math.isfinite(time)):
-            raise ReadingRejectedError('not finite')
+            raise ReadingRejectedError(NOT_FINITE)
         if self._frame is not None and frame != self._frame:
             raise ReadingRejectedError(ANOTHER_FRAME)
         ranges = [self.sensing.force_range] * 3 + [self.sensing.moment_range] * 3
         if (np.abs(wrench) >= np.minimum(ranges, MOST_FORCE)).any():
-            raise ReadingRejectedError('saturated')
+            raise ReadingRejectedError(SATURATED)
         if time < self._time - self.sensing.max_gap:
             self.restart()
         elif time <= self._time:
-            raise ReadingRejectedError('not newer')
+            raise ReadingRejectedError(NOT_NEWER)
 
     def _remember(self, time: float, frame: str, wrench: Vector) -> None:
         self._recent.append((time, frame, wrench))
