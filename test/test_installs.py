@@ -110,7 +110,6 @@ KEYS = {
     'mcap_ros2': 'mcap-ros2-support',
     'mpl_toolkits': 'python3-matplotlib',
     'xacro': 'xacro',
-    'yarl': 'python3-aiohttp',
     'zstandard': 'mcap-ros2-support',
 }
 NO_KEY = {'mujoco', 'plotly'}  # the manual says how to install it
@@ -126,7 +125,7 @@ def test_setup_requires_what_the_package_imports_and_nothing_else(setup):
     pytest.importorskip('plotly')
     projects = packages_distributions()
     modules = {name for name in foreign(ROOT) if not ROS.fullmatch(name)}
-    modules -= {'pytest', 'mujoco', 'xacro', 'cv2', 'scipy', 'aiohttp', 'yarl'}  # of the extras
+    modules -= {'pytest', 'mujoco', 'xacro', 'cv2', 'scipy', 'aiohttp'}  # of the extras
     needed = {projects[name][0].lower().replace('_', '-') for name in modules}
     assert installed(setup['install_requires']) == needed
     assert installed(setup['extras_require']['mujoco']) == {'mujoco'}

@@ -11,9 +11,9 @@ import ipaddress
 import socket
 import threading
 from collections.abc import Awaitable, Callable, Mapping
+from urllib.parse import urlsplit
 
 from aiohttp import WSCloseCode, web
-from yarl import URL
 
 from tactile_push.watching.listening import listen
 
@@ -41,14 +41,8 @@ class Server:
         self._page, self._headers, self._hello = page, headers, hello
         self._own_names = {'localhost', host.lower(), socket.gethostname().lower()}
         open_to_all = listening.getsockname()[0] in ('0.0.0.0', '::')
-        self.address = str(
-            URL.build(
-                scheme='http',
-                host=socket.gethostname() if open_to_all else host,
-                port=listening.getsockname()[1],
-                path='/',
-            )
-        )
+        place = socket.gethostname() if open_to_all else f'[{host}]' if ':' in host else host
+        self.address = f'http://{place}:{listening.getsockname()[1]}/'
         self.pages = 0  # that are shown now
         self._posted: dict[str, str] = {}
         self._sockets: set[web.WebSocketResponse] = set()
@@ -93,16 +87,20 @@ class Server:
     @web.middleware
     async def _guard(self, request: web.Request, handler: Handler) -> web.StreamResponse:
         """Refuse pages of elsewhere whose name somebody lets lead here."""
-        if not self._is_own(request.url.host or ''):
+        if not self._is_own(request.host):
             raise web.HTTPForbidden(text='expected the address of this machine\n')
         return await handler(request)
 
-    def _is_own(self, host: str) -> bool:
+    def _is_own(self, place: str) -> bool:
+        """Return whether a host with or without a port is a name of this machine, or a number."""
         try:
-            ipaddress.ip_address(host)
+            name = urlsplit(f'//{place}').hostname or ''
+        except ValueError:  # of brackets that hold no address
+            return False
+        try:
+            ipaddress.ip_address(name)
         except ValueError:
-            name = host.lower()
-            return name in self._own_names or name.removesuffix('.local') in self._own_names
+            return bool({name, name.removesuffix('.local')} & self._own_names)
         return True  # nobody can let a number lead elsewhere
 
     async def _on_page(self, request: web.Request) -> web.Response:
@@ -124,9 +122,10 @@ class Server:
             async for _ in page:  # which has nothing to say but that it is there
                 pass
         finally:
-            sender.cancel()
             self._sockets.discard(page)
             self.pages = len(self._sockets)
+            sender.cancel()
+            await asyncio.wait([sender])
         return page
 
     async def _send(self, page: web.WebSocketResponse, request: web.Request) -> None:
