@@ -152,7 +152,8 @@ def _end_with_the_asker(reported: socket.socket, copy: int) -> None:
     """Wait until nobody listens to the report any more, and end the copy as a manager would."""
     with contextlib.suppress(OSError):
         reported.recv(1)
-    os.kill(copy, signal.SIGTERM)
+    with contextlib.suppress(ProcessLookupError):  # it may have ended by itself
+        os.kill(copy, signal.SIGTERM)
 
 
 def _load_machine_code() -> None:

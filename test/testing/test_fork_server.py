@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import os
 import signal
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -150,3 +151,12 @@ def test_node_ends_with_whoever_started_it_even_if_that_is_killed(tmp_path, envi
         starter.kill()
     wait_for(lambda: has_ended(pid), 'the end of the node')
     assert (tmp_path / 'log').read_text() == ''
+
+
+def test_node_that_has_ended_by_itself_is_not_ended_again():
+    asker, reported = socket.socketpair()
+    asker.close()
+    ended = subprocess.Popen([sys.executable, '-c', ''])
+    ended.wait()
+    fork_server._end_with_the_asker(reported, ended.pid)
+    reported.close()
