@@ -2,9 +2,30 @@
 # SPDX-License-Identifier: Apache-2.0
 """The control law and when it may act: Section IV."""
 
+from tactile_push.control.joint_rates import (
+    Arm,
+    JointBounds,
+    JointRates,
+    check_workspace,
+    disk_velocity,
+    joint_rates,
+)
+from tactile_push.control.joint_servo import JointServo, ServoLimits, ServoStep, servo_values
 from tactile_push.control.law import AHEAD, PushLaw, finger_velocity, motion_angle, push_angle
 from tactile_push.control.limits import Limits, plausible
 from tactile_push.control.push_control import PushControl, Tick
+from tactile_push.control.servo_states import (
+    AWAITING_COMMAND,
+    COMMAND_SILENT,
+    DOES_NOT_FOLLOW,
+    FOLLOWING,
+    IMPLAUSIBLE_COMMAND,
+    JOINT_LIMIT,
+    SERVO_HELD,
+    SERVO_STATES,
+    SERVO_STOP_REASONS,
+    SINGULAR_POSE,
+)
 from tactile_push.control.settling import settle_step
 from tactile_push.control.slow_mode import UNKNOWN, Drift, Outlook, growth_rate, time_left
 from tactile_push.control.states import (
@@ -30,14 +51,24 @@ from tactile_push.control.tick_state import tick_of, tick_values
 __all__ = [
     'AHEAD',
     'ANOTHER_COMMAND',
+    'AWAITING_COMMAND',
     'CLOCK_JUMPED',
+    'COMMAND_SILENT',
     'CONTACT_SILENT',
+    'DOES_NOT_FOLLOW',
     'FINGER_UNKNOWN',
+    'FOLLOWING',
     'HELD',
+    'IMPLAUSIBLE_COMMAND',
     'IMPLAUSIBLE_CONTACT',
     'INACTIVE',
+    'JOINT_LIMIT',
     'NO_REASON',
     'PUSHING',
+    'SERVO_HELD',
+    'SERVO_STATES',
+    'SERVO_STOP_REASONS',
+    'SINGULAR_POSE',
     'STATES',
     'STOPPED',
     'STOP_REASONS',
@@ -45,18 +76,28 @@ __all__ = [
     'UNKNOWN',
     'WAITING',
     'WORKSPACE_LIMIT',
+    'Arm',
     'Drift',
+    'JointBounds',
+    'JointRates',
+    'JointServo',
     'Limits',
     'Outlook',
     'PushControl',
     'PushLaw',
+    'ServoLimits',
+    'ServoStep',
     'Steadying',
     'Tick',
+    'check_workspace',
+    'disk_velocity',
     'finger_velocity',
     'growth_rate',
+    'joint_rates',
     'motion_angle',
     'plausible',
     'push_angle',
+    'servo_values',
     'settle_step',
     'tick_of',
     'tick_values',

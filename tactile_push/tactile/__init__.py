@@ -10,6 +10,7 @@ from tactile_push.tactile.hemisphere import (
     reading_of_contact,
 )
 from tactile_push.tactile.jumps import JUMP_TOLERANCE, MAX_THETA_RATE
+from tactile_push.tactile.linear_axis import LinearAxis
 from tactile_push.tactile.planar_finger import FingerPose, OutOfReachError, PlanarFinger
 from tactile_push.tactile.reading import NO_CONTACT, Reading
 from tactile_push.tactile.reading_state import reading_values
@@ -31,6 +32,7 @@ __all__ = [
     'Contact',
     'ContactFinder',
     'FingerPose',
+    'LinearAxis',
     'OutOfReachError',
     'PlanarFinger',
     'Reading',

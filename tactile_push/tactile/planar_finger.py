@@ -3,7 +3,7 @@
 """Kinematics of the planar finger (Section V.A): first joint fixed, two joints move."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 
@@ -121,6 +121,80 @@ class PlanarFinger:
         along = math.cos(self.mount_angle + proximal)
         across = -self.distal_length * math.sin(distal)
         return along / across if across != 0.0 else math.copysign(math.inf, along)
+
+    def centre(self, joints: Sequence[float]) -> tuple[float, float]:
+        """Find the disk's centre at given joint angles.
+
+        Parameters
+        ----------
+        joints : sequence of float
+            Joint angles [rad].
+
+        Returns
+        -------
+        x, y : float
+            Centre of the disk in `finger_base` [m].
+        """
+        pose = self.forward(*joints)
+        return pose.x, pose.y
+
+    def levers(self, joints: Sequence[float]) -> tuple[tuple[float, float], ...]:
+        """Find the columns of the Jacobian: how the disk's centre moves as each joint turns.
+
+        A joint turns everything beyond it, so its column is the way from the joint to the centre,
+        turned by 90 degrees.
+
+        Parameters
+        ----------
+        joints : sequence of float
+            Joint angles [rad].
+
+        Returns
+        -------
+        tuple of (float, float)
+            x and y [m/rad] of each joint.
+        """
+        x, y = self.centre(joints)
+        psi = pole_angle(self.mount_angle, joints)
+        along, across = self.distal_length * math.cos(psi), self.distal_length * math.sin(psi)
+        return (-y, x), (-across, along)
+
+    def manipulability(self, joints: Sequence[float]) -> float:
+        """Find how far the finger is from stretched and folded, where it cannot move in one way.
+
+        The determinant of the Jacobian is a b sin(distal).
+
+        Parameters
+        ----------
+        joints : sequence of float
+            Joint angles [rad].
+
+        Returns
+        -------
+        float
+            Its size relative to the largest, 0 to 1.
+
+        References
+        ----------
+        T. Yoshikawa, "Manipulability of robotic mechanisms", IJRR 4(2), 1985.
+        """
+        return abs(math.sin(joints[1]))
+
+    def moved(self, before: Sequence[float], after: Sequence[float]) -> tuple[float, ...]:
+        """Find how far the joints have turned, the shorter way around.
+
+        Parameters
+        ----------
+        before, after : sequence of float
+            Joint angles [rad], which may be reported in (-pi, pi].
+
+        Returns
+        -------
+        tuple of float
+            Angle of each joint [rad].
+        """
+        pairs = zip(before, after, strict=True)
+        return tuple(math.remainder(end - start, 2.0 * math.pi) for start, end in pairs)
 
 
 # Of rig and nodes unless somebody gives another, straight ahead. The lengths are picked.

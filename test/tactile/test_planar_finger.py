@@ -181,3 +181,37 @@ def test_turning_is_the_change_of_the_tip_s_angle_across_the_belt(finger, proxim
 def test_stretched_finger_cannot_move_across_without_turning_ever_faster(proximal, sign):
     finger = PlanarFinger(0.06, 0.08, 0.0)
     assert finger.turning(proximal, 0.0) == sign * math.inf
+
+
+@given(finger=fingers, proximal=st.floats(-3.0, 3.0), distal=st.floats(-3.0, 3.0))
+@PROPERTY
+def test_levers_are_the_slopes_of_the_disks_place(finger, proximal, distal):
+    h = 1e-6
+    for joint, lever in enumerate(finger.levers((proximal, distal))):
+        there, back = [proximal, distal], [proximal, distal]
+        there[joint] += h
+        back[joint] -= h
+        ends = zip(finger.centre(there), finger.centre(back), strict=True)
+        assert lever == pytest.approx([(end - start) / (2.0 * h) for end, start in ends], abs=1e-9)
+
+
+def test_levers_of_the_rectangle():
+    # The disk is 8 cm ahead of the second joint, and 6 cm left of and 8 cm ahead of the first one.
+    first, second = FINGER.levers((math.pi / 2.0, -math.pi / 2.0))
+    assert first == pytest.approx((-0.08, -0.06))
+    assert second == pytest.approx((-0.08, 0.0), abs=1e-15)
+
+
+@given(finger=fingers, proximal=st.floats(-3.0, 3.0), distal=st.floats(-3.0, 3.0))
+@PROPERTY
+def test_manipulability_is_the_area_that_the_levers_span_relative_to_the_largest(
+    finger, proximal, distal
+):
+    (x, y), (distal_x, distal_y) = finger.levers((proximal, distal))
+    largest = finger.proximal_length * finger.distal_length
+    share = abs(x * distal_y - y * distal_x) / largest
+    assert finger.manipulability((proximal, distal)) == pytest.approx(share, abs=1e-12)
+
+
+def test_a_joint_that_passes_the_end_of_its_range_has_moved_the_shorter_way():
+    assert FINGER.moved((3.1, 0.2), (-3.1, 0.1)) == pytest.approx((2.0 * math.pi - 6.2, -0.1))
