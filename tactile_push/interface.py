@@ -67,6 +67,7 @@ CAMERA_SENSOR = 'camera_sensor'
 CONTACT_GEOMETRY = 'contact_geometry'
 PUSH_CONTROLLER = 'push_controller'
 ACTIVE_SENSING = 'active_sensing'
+FINGER_SERVO = 'finger_servo'
 SIM_PLANT = 'sim_plant'
 MUJOCO_PLANT = 'mujoco_plant'
 PLANTS = (SIM_PLANT, MUJOCO_PLANT)  # one of which takes the place of the hardware
@@ -85,6 +86,8 @@ CONTACT = 'contact'
 GEOMETRY_STATE = 'contact_geometry/state'
 COMMAND = 'finger/cmd_vel'
 CONTROLLER_STATE = 'push_controller/state'
+SERVO_COMMANDS = 'finger_velocity_controller/commands'
+SERVO_STATE = 'finger_servo/state'
 OBJECT_POSE = 'object_pose'
 SENSING_STATE = 'active_sensing/state'
 SENSING_MARKERS = 'active_sensing/markers'
@@ -111,6 +114,10 @@ WRIST_JOINT = 'wrist_joint'  # in `joint_states` of a finger whose wrist holds t
 SENSORS = (SENTENCE, FORCE_TORQUE, CAMERA) = ('sentence', 'wrench', 'camera')
 # Points of the finger tip of which one follows the commanded velocity across the belt.
 POINTS = ('centre', 'pole', 'contact')
+# What moves the finger: a velocity across the belt, or one of each joint.
+VELOCITY, JOINT_VELOCITIES = COMMANDS = ('velocity', 'joint_velocities')
+# Kinematics of a finger: two joints that turn, or one that slides across the belt.
+PLANAR, LINEAR = KINEMATICS = ('planar', 'linear')
 # What active sensing makes of readings while the direction of the finger tip is not known.
 SILENT, WIDEN, STRAIGHT = WITHOUT_PSI = ('silent', 'widen', 'straight')
 
@@ -121,6 +128,7 @@ WRENCH_TYPE = 'geometry_msgs/msg/WrenchStamped'
 IMAGE_TYPE = 'sensor_msgs/msg/Image'
 COMPRESSED_IMAGE_TYPE = 'sensor_msgs/msg/CompressedImage'
 TWIST_TYPE = 'geometry_msgs/msg/TwistStamped'
+VELOCITIES_TYPE = 'std_msgs/msg/Float64MultiArray'
 MARKERS_TYPE = 'visualization_msgs/msg/MarkerArray'
 
 NODES = {
@@ -147,6 +155,7 @@ NODES = {
             ACTIVE_SENSING,
             'infers where the finger touches the object and where its centre of mass is',
         ),
+        NodeSummary(FINGER_SERVO, 'moves a finger by the velocities of its joints', managed=True),
         NodeSummary(SIM_PLANT, 'simulates belt, object, finger and sensor in place of hardware'),
         NodeSummary(
             MUJOCO_PLANT,
@@ -200,7 +209,7 @@ TOPICS = {
             ),
         ),
         Topic(JOINT_STATES, JOINT_STATE_TYPE, ('the finger', *PLANTS),
-            (CONTACT_GEOMETRY, PUSH_CONTROLLER),
+            (CONTACT_GEOMETRY, PUSH_CONTROLLER, FINGER_SERVO),
             'angles of the moving joints of the finger; the parameters `joint_names` name them; a '
             'finger whose wrist holds the tip straight adds `wrist_joint`',
             (
@@ -222,9 +231,34 @@ TOPICS = {
                 Field('refusal', '', 'why the reading was refused', 'tactile.REFUSALS'),
             ),
         ),
-        Topic(COMMAND, TWIST_TYPE, (PUSH_CONTROLLER,), ('the finger', *PLANTS, PUSH_CONTROLLER),
+        Topic(COMMAND, TWIST_TYPE, (PUSH_CONTROLLER,),
+            ('the finger', FINGER_SERVO, *PLANTS, PUSH_CONTROLLER),
             'in `finger_base`: `linear.x` [m/s]; nothing before the first contact, 0 when the '
             'contact is lost',
+        ),
+        Topic(SERVO_COMMANDS, VELOCITIES_TYPE, (FINGER_SERVO,),
+            ('the finger', *PLANTS, FINGER_SERVO),
+            'velocities of the joints in the order of `joint_names` [rad/s], as the velocity '
+            'controllers of ros2_control take them; all 0 before the first command',
+        ),
+        Topic(SERVO_STATE, JOINT_STATE_TYPE, (FINGER_SERVO,), PLANTS,
+            'everything that the servo used and gave whenever it gave velocities',
+            (
+                Field('v_x', 'm/s', 'commanded velocity across the belt; NaN if there is none'),
+                Field('first_velocity', 'rad/s', 'velocity of the first joint; m/s if it slides'),
+                Field('second_velocity', 'rad/s', 'velocity of the second joint; NaN if none'),
+                Field('share', '',
+                    'share of the command that the bounds on speed allow; NaN unless following'),
+                Field('finger_x', 'm', 'position of the finger across the belt'),
+                Field('finger_y', 'm', 'position of the finger along the belt'),
+                Field('line', 'm', 'the finger_y that is kept; NaN before the first command'),
+                Field('deviation', 'm',
+                    'distance from where the commands of the last second should have led'),
+                Field('state', '', 'what the servo does', 'control.SERVO_STATES'),
+                Field('stop_reason', '', 'why the joints stand', 'control.SERVO_STOP_REASONS'),
+                Field('command_age', 's', 'age of the command'),
+                Field('joint_age', 's', 'age of the joint states'),
+            ),
         ),
         Topic(CONTROLLER_STATE, JOINT_STATE_TYPE, (PUSH_CONTROLLER,),
             (ACTIVE_SENSING, LIVE_PAGE),

@@ -66,8 +66,8 @@ class ServoStep(NamedTuple):
 
     state: str  #: one of `SERVO_STATES`
     stop_reason: str  #: one of `SERVO_STOP_REASONS`; `NO_REASON` unless stopped
-    #: velocities of the joints [rad/s] or [m/s]; None while inactive: whoever moves the joints then,
-    #: it is not this servo
+    #: velocities of the joints [rad/s] or [m/s]; None while inactive, when whoever moves the joints
+    #: is not this servo
     rates: tuple[float, ...] | None
     v_x: float  #: commanded velocity across the belt [m/s]; NaN if there is none
     share: float  #: of it that the bounds on speed allow, 0 to 1; NaN unless following

@@ -10,6 +10,7 @@ from tactile_push.parameters.camera_sensor import CameraSensorParameters
 from tactile_push.parameters.config_file import config_file
 from tactile_push.parameters.contact_geometry import ContactGeometryParameters
 from tactile_push.parameters.experiment import ExperimentParameters
+from tactile_push.parameters.finger_servo import FingerServoParameters
 from tactile_push.parameters.live_page import LivePageParameters
 from tactile_push.parameters.mujoco_plant import MujocoPlantParameters
 from tactile_push.parameters.parameter import NodeParameters, Parameter
@@ -25,6 +26,7 @@ PARAMETERS: dict[str, type[NodeParameters]] = {
     interface.CONTACT_GEOMETRY: ContactGeometryParameters,
     interface.PUSH_CONTROLLER: PushControllerParameters,
     interface.ACTIVE_SENSING: ActiveSensingParameters,
+    interface.FINGER_SERVO: FingerServoParameters,
     interface.SIM_PLANT: SimPlantParameters,
     interface.MUJOCO_PLANT: MujocoPlantParameters,
     interface.EXPERIMENT: ExperimentParameters,
@@ -42,6 +44,7 @@ __all__ = [
     'CameraSensorParameters',
     'ContactGeometryParameters',
     'ExperimentParameters',
+    'FingerServoParameters',
     'LivePageParameters',
     'MujocoPlantParameters',
     'NodeParameters',

@@ -6,6 +6,8 @@ The live nodes, `tactile_push.replay` and `tactile_push.simulation.experiment` r
 
 `tactile`, `joint_states` -> `Geometry` -> contact -> `Control` -> command -> `Sensing` -> pose
 
+`finger/cmd_vel`, `joint_states` -> `Servo` -> joint velocities, of a finger that takes those
+
 A step takes a message as its stamp, names and positions, and returns what came of it; `outputs`
 are the topics on which that is published, each with the fields of its message. `named` decides what
 an odd message means. `Sensing` needs compiled mathematics and is imported when it is asked for.
@@ -18,6 +20,7 @@ from tactile_push.pipeline.control import Control, edge_angle
 from tactile_push.pipeline.geometry import Felt, Geometry
 from tactile_push.pipeline.messages import Fields, Output
 from tactile_push.pipeline.named import by_name
+from tactile_push.pipeline.servo import Moment, Servo
 from tactile_push.pipeline.stamps import Seconds, Stamp
 
 if typing.TYPE_CHECKING:
@@ -28,10 +31,12 @@ __all__ = [
     'Felt',
     'Fields',
     'Geometry',
+    'Moment',
     'Output',
     'Seconds',
     'Sensed',
     'Sensing',
+    'Servo',
     'Stamp',
     'by_name',
     'edge_angle',

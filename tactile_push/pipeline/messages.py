@@ -57,6 +57,11 @@ def command_fields(stamp: Stamp, v_x: float) -> Fields:
     return {'header': _header(stamp, FINGER_BASE), 'twist': {'linear': {'x': v_x}}}
 
 
+def velocities_fields(velocities: Sequence[float]) -> Fields:
+    """Return the fields of a Float64MultiArray: a velocity for each joint [rad/s] or [m/s]."""
+    return {'data': list(velocities)}
+
+
 def object_pose_fields(
     stamp: Stamp, pose: npt.NDArray[np.float64], covariance: npt.NDArray[np.float64]
 ) -> Fields:
