@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from tactile_push.interface import MUJOCO_PLANT
+from tactile_push.interface import JOINT_VELOCITIES, MUJOCO_PLANT
 from tactile_push.needs_mujoco import mujoco_is_missing
 from tactile_push.nodes.ros.plant import PlantNode
 from tactile_push.nodes.ros.process import run
@@ -26,10 +26,12 @@ class MujocoPlant(PlantNode[MujocoPlantParameters]):
     @staticmethod
     def rig_maker(p: MujocoPlantParameters) -> 'Callable[[], MujocoRig]':
         """Check the parameters."""
+        from tactile_push.simulation.mujoco_joint_rig import MujocoJointRig
         from tactile_push.simulation.mujoco_rig import MujocoRig
 
         (config, physics), beginning = mujoco_config(p), faults(p)
-        return lambda: MujocoRig(config, physics, beginning)
+        kind = MujocoJointRig if p.commands == JOINT_VELOCITIES else MujocoRig
+        return lambda: kind(config, physics, beginning)
 
 
 def main() -> int:

@@ -5,11 +5,11 @@
 import sys
 from collections.abc import Callable
 
-from tactile_push.interface import SIM_PLANT
+from tactile_push.interface import JOINT_VELOCITIES, SIM_PLANT
 from tactile_push.nodes.ros.plant import PlantNode
 from tactile_push.nodes.ros.process import run
 from tactile_push.parameters.sim_plant import SimPlantParameters, faults, rig_config
-from tactile_push.simulation import Rig
+from tactile_push.simulation import JointRig, Rig
 
 
 class SimPlant(PlantNode[SimPlantParameters]):
@@ -22,10 +22,11 @@ class SimPlant(PlantNode[SimPlantParameters]):
     def rig_maker(p: SimPlantParameters) -> Callable[[], Rig]:
         """Check the parameters."""
         config, beginning = rig_config(p), faults(p)
+        kind = JointRig if p.commands == JOINT_VELOCITIES else Rig
 
         def made() -> Rig:
             Rig(config).step(0.0, 1.0)  # compiles the mechanics before time begins
-            return Rig(config, beginning)
+            return kind(config, beginning)
 
         return made
 

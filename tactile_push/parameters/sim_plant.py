@@ -8,6 +8,7 @@ import typing
 from dataclasses import dataclass
 
 from tactile_push import paper
+from tactile_push.interface import COMMANDS, JOINT_VELOCITIES, POINTS, VELOCITY
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
 from tactile_push.tactile import PlanarFinger
@@ -53,6 +54,10 @@ class SimPlantParameters(NodeParameters):
         'the finger tip turns with the last link; otherwise wrist_joint, a third joint, holds it '
         'straight', read_only=True)
     commanded_point: str = shared.commanded_point
+    commands: str = parameter(VELOCITY, '',
+        'what moves the finger: velocity, that of finger/cmd_vel; or joint_velocities, those of '
+        "the joints, as finger_servo gives them, which stay in force until others come",
+        choices=COMMANDS, read_only=True)
     f_max: float = parameter(2.7, 'N',
         'force that moves the object straight on, by which the finger is pushed back',
         1e-3, 1e4, read_only=True)
@@ -73,7 +78,8 @@ class SimPlantParameters(NodeParameters):
         'filters', 0.0, 1.0, read_only=True)
     sensor_rate: float = parameter(50.0, 'Hz', 'readings a second', 1.0, 1000.0, read_only=True)
     command_timeout: float = parameter(0.5, 's',
-        'the finger stops after this long without a command', 0.01, 10.0, read_only=True)
+        'the finger stops after this long without a command, unless joint_velocities move it',
+        0.01, 10.0, read_only=True)
     publish_clock: bool = parameter(False, '',
         'publish /clock, and let its time wait for contacts and commands', read_only=True)
     real_time_factor: float = parameter(1.0, 's/s',
@@ -146,6 +152,11 @@ def rig_config(p: SimPlantParameters) -> 'RigConfig':
     from tactile_push.mechanics import Outline, Slider, Support  # which load the compiler
     from tactile_push.simulation import RigConfig
 
+    if p.commands == JOINT_VELOCITIES and p.commanded_point != POINTS[0]:
+        raise ValueError(
+            f'parameter commanded_point: expected {POINTS[0]} with commands {JOINT_VELOCITIES}, '
+            f'which command no point, got {p.commanded_point}'
+        )
     if p.object == paper.BLOCK:
         outline, d = Outline.rectangle(p.edge_length, 2.0 * p.edge_to_cm), p.d_initial
     else:
@@ -173,6 +184,11 @@ def faults(p: SimPlantParameters) -> 'Faults':
         Workspace,
     )
 
+    if p.commands == JOINT_VELOCITIES and p.servo_velocity_quantum != 0.0:
+        raise ValueError(
+            f'parameter servo_velocity_quantum: expected 0.0 with commands {JOINT_VELOCITIES}, '
+            f'got {p.servo_velocity_quantum}'
+        )
     try:
         workspace = Workspace(p.workspace_min, p.workspace_max)
     except ValueError as error:

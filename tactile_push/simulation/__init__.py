@@ -8,6 +8,7 @@ from tactile_push.simulation.device_server import serve
 from tactile_push.simulation.experiment import control_periods, experiment
 from tactile_push.simulation.faults import Faults
 from tactile_push.simulation.force_sensor import ForceReadout, ForceSensor, Mount
+from tactile_push.simulation.joint_rig import JointRig, servoed
 from tactile_push.simulation.object_files import read_object, read_support
 from tactile_push.simulation.rig import Rig, RigConfig, paper_block, paper_disk
 from tactile_push.simulation.rollout import Rollout, rollout
@@ -20,6 +21,7 @@ __all__ = [
     'Faults',
     'ForceReadout',
     'ForceSensor',
+    'JointRig',
     'Mount',
     'Readout',
     'Rig',
@@ -38,4 +40,5 @@ __all__ = [
     'rollout',
     'rollouts',
     'serve',
+    'servoed',
 ]

@@ -13,6 +13,7 @@ from tactile_push.control import PUSHING, WAITING, Limits, PushControl, PushLaw,
 from tactile_push.interface import JOINT_STATES, TOPICS, WRIST_JOINT
 from tactile_push.pipeline import Control, Geometry, Stamp
 from tactile_push.simulation.faults import NO_FAULTS, Faults
+from tactile_push.simulation.joint_rig import Mover
 from tactile_push.simulation.rig import Rig, RigConfig
 from tactile_push.simulation.rollout import MODE, QUANTITIES, Rollout, check_time
 from tactile_push.simulation.sensor import Readout
@@ -102,7 +103,11 @@ def experiment(
 
 
 def control_periods(
-    rig: 'Rig | MujocoRig', push: PushControl, readings: int, seed: int
+    rig: 'Rig | MujocoRig',
+    push: PushControl,
+    readings: int,
+    seed: int,
+    move: Mover | None = None,
 ) -> Iterator[Tick]:
     """Run a control on a rig, through sensor and finger, for as long as somebody asks.
 
@@ -114,6 +119,8 @@ def control_periods(
         The control, which this activates.
     readings, seed : int
         Readings of the sensor in each control period, and seed of their errors.
+    move : callable, optional
+        Moves the rig by a command, as `servoed` does; `rig.step` by default.
 
     Yields
     ------
@@ -155,7 +162,7 @@ def control_periods(
         yield tick
         waiting = _waits(tick, push)
         for i in range(readings):
-            rig.step(tick.v_x or 0.0, period / readings, belt_running=not waiting)
+            (move or rig.step)(tick.v_x or 0.0, period / readings, not waiting)
             feel((k, i + 1))
 
 

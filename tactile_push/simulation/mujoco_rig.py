@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The rig in MuJoCo: independent physics with a finger of joints and a push above the belt.
 
-This module needs the package mujoco; no other module of the room imports it.
+This module needs the package mujoco; of the room only `mujoco_joint_rig` imports it.
 """
 
 import math
+from collections.abc import Callable
 
 import mujoco
 import numpy as np
@@ -84,7 +85,7 @@ class MujocoRig:
         links = config.finger
         # The knuckle points across the belt, the pole along it.
         self._home = links.forward(math.pi - links.mount_angle, -math.pi / 2.0)
-        self._commands = DelayLine()
+        self._commands = DelayLine(0.0)
         self._wanted = 0.0  # velocity that the servos are asked for now [m/s]
         self.time = 0.0  #: how long it has been in motion [s]
         self.v_y = 0.0  #: the belt's speed at the end of the last step [m/s]
@@ -108,7 +109,7 @@ class MujocoRig:
         q[LINKS] = finger.inverse(self._home.x, self._home.y)
         if not self.config.tip_turns:
             q[WRIST] = math.pi / 2.0 - pole_angle(finger.mount_angle, q[LINKS])
-        self._simulate(0.0, SETTLING, belt_running=False)
+        self._simulate(self._across(0.0), SETTLING, belt_running=False)
         q[BASE] = FIRST_DENT / math.cos(self.config.theta)
         self._data.qvel[:] = 0.0
         mujoco.mj_forward(self._model, self._data)
@@ -124,6 +125,11 @@ class MujocoRig:
     def finger_y(self) -> float:
         """The same along the belt, where the finger moves at +v_y [m]."""
         return float(self._data.qpos[BASE]) + self._links.y - self._home.y
+
+    @property
+    def belt_travel(self) -> float:
+        """How far the belt has moved [m]."""
+        return float(self._data.qpos[BASE])
 
     @property
     def v_x(self) -> float:
@@ -233,23 +239,38 @@ class MujocoRig:
         self.at_workspace_limit = False
         servo = self.faults.servo
         for arrived, length in self._commands.arriving(v_x, self.time, duration, servo.delay):
-            self._simulate(quantised(arrived, servo.velocity_quantum), length, belt_running)
+            command = quantised(arrived, servo.velocity_quantum)
+            self._simulate(self._across(command), length, belt_running)
         self._look()
 
-    def _simulate(self, command: float, duration: float, belt_running: bool) -> None:
-        """Let the servos follow one command."""
+    def _across(self, command: float) -> Callable[[float], tuple[float, ...]]:
+        """Return what asks the servos, a step [s] after the other, for a velocity across [m/s]."""
+
+        def ask(step: float) -> tuple[float, ...]:
+            self._wanted = command + self._behind(step) * (self._wanted - command)
+            return self._joint_velocities(self._within_limits(self._wanted, step))
+
+        return ask
+
+    def _behind(self, step: float) -> float:
+        """Return the share of a velocity's error that the servos' lag leaves after a step [s]."""
+        lag = self.faults.servo.time_constant
+        return math.exp(-step / lag) if lag > 0.0 else 0.0
+
+    def _simulate(
+        self, ask: Callable[[float], tuple[float, ...]], duration: float, belt_running: bool
+    ) -> None:
+        """Let the servos do what they are asked for in each step [s]."""
         steps = math.ceil(duration / TIME_STEP - 1e-6)
         if steps <= 0:
             return
         self._model.opt.timestep = step = duration / steps
-        lag = self.faults.servo.time_constant
-        behind = math.exp(-step / lag) if lag > 0.0 else 0.0
         data, belt = self._data, self.faults.belt
         for _ in range(steps):
-            self._wanted = command + behind * (self._wanted - command)
+            wanted = ask(step)
             if self.faults.friction.ripple > 0.0:
                 self._make_friction_uneven()
-            data.ctrl[:] = self._joint_velocities(self._within_limits(self._wanted, step))
+            data.ctrl[:] = wanted
             self.v_y = 0.0
             if belt_running:
                 self.v_y = belt.mean_speed(self.config.belt_speed, self.time, step)
@@ -277,6 +298,10 @@ class MujocoRig:
         v_y = HOLD * (self._home.y - self._links.y)
         det = distal_y * x - y * distal_x
         links = (v_x * distal_x + v_y * distal_y) / det, -(v_x * x + v_y * y) / det
+        return self._with_wrist(links)
+
+    def _with_wrist(self, links: tuple[float, ...]) -> tuple[float, ...]:
+        """Return the velocities of the links, and of the wrist that holds the tip straight."""
         if self.config.tip_turns:
             return links
         return *links, HOLD * (math.pi / 2.0 - self.psi) - sum(links)

@@ -10,14 +10,15 @@ LONGEST_LOOK = 0.01  # more wall time between two looks does not count [s]: nobo
 class Pace:
     """Paces simulated time: no faster than asked, and never ahead of the loop it closes.
 
-    Simulated time waits for two things: for the next command when it is due, and for a contact with
-    the stamp of the last reading, because a driver that reads late would stamp it with a later
-    time. So a loaded machine makes an experiment slower, not different. Time does not wait for the
-    contact of a reading that is lost, reports no contact or is an outlier: none need follow.
-    A contact may be stamped earlier than its reading by `lag`, as by a sensor node that filters.
-    After `patience` of wall time it no longer waits for what is overdue, until that comes again:
-    whoever sends it has gone. Time in which this process itself stood still does not count, since
-    what is overdue may lie here unread.
+    Simulated time waits for the next command when it is due, and for a contact with the stamp of
+    the last reading, because a driver that reads late would stamp it with a later time. If a servo
+    moves the joints, it waits for the answer to the last joint states and the last command, too. So
+    a loaded machine makes an experiment slower, not different. Time does not wait for the contact
+    of a reading that is lost, reports no contact or is an outlier: none need follow. A
+    contact may be stamped earlier than its reading by `lag`, as by a sensor node that filters. After
+    `patience` of wall time it no longer waits for what is overdue, until that comes again: whoever
+    sends it has gone. Time in which this process itself stood still does not count, since what is
+    overdue may lie here unread.
     """
 
     def __init__(
@@ -35,6 +36,8 @@ class Pace:
         self._contact = math.nan  # not waited for
         self._reading = math.nan
         self._contact_overdue = False
+        self._dated_command = math.nan  # stamp of the last command, if it can be one [s]
+        self._answered = math.nan, math.nan  # joint states and command [s]; not waited for
 
     @property
     def contact_overdue(self) -> bool:
@@ -52,7 +55,9 @@ class Pace:
         A stamp that cannot be that of the last tick is taken for `now`: its sender has another
         clock.
         """
-        self._command = stamp if now - self._control_period <= stamp <= now else now
+        plausible = now - self._control_period <= stamp <= now
+        self._command = stamp if plausible else now
+        self._dated_command = stamp if plausible else math.nan
 
     def reading(self, now: float) -> None:
         """Take note that the sensor sent a reading from which a contact has to follow."""
@@ -62,6 +67,10 @@ class Pace:
         """Take note of a contact."""
         self._contact = stamp
 
+    def answer(self, joint_states: float, command: float) -> None:
+        """Take note that a servo has answered joint states and a command of these stamps [s]."""
+        self._answered = joint_states, command
+
     def may_reach(self, time: float, step: float, wall: float) -> bool:
         """Decide at the wall time `wall` [s] whether simulated time may step on to `time` [s]."""
         if wall < self._next_wall:
@@ -69,7 +78,11 @@ class Pace:
         due = self._command + self._control_period
         command_overdue = time > due + step / 2.0
         self._contact_overdue = self._contact + self._lag < self._reading - step / 2.0
-        if command_overdue or self._contact_overdue:
+        joint_states, command = self._answered
+        answer_overdue = (
+            joint_states < time - 1.5 * step or command < self._dated_command - step / 2.0
+        )
+        if command_overdue or self._contact_overdue or answer_overdue:
             longest = max(LONGEST_LOOK, step / self._factor)
             self._held += min(max(wall - self._looked, 0.0), longest)
             self._looked = wall
@@ -79,6 +92,8 @@ class Pace:
                 self._command = math.nan
             if self._contact_overdue:
                 self._contact = math.nan
+            if answer_overdue:
+                self._answered = math.nan, math.nan
         self._held, self._looked = 0.0, math.inf
         self._contact_overdue = False
         looping = self.commanded and not math.isnan(self._contact)

@@ -169,12 +169,13 @@ class Rig:
         self.faults = faults
         self._body = config.body
         self._tip = config.tip
-        self._commands = DelayLine()
+        self._commands = DelayLine(0.0)
         self.time = 0.0  #: how long it has been in motion [s]
         self.v_x = 0.0  #: the finger's velocity across the belt at the end of the last step [m/s]
         self.v_y = 0.0  #: the belt's speed at the end of the last step [m/s]
         self.finger_x = 0.0  #: centre of the finger's disk on the belt, from its start [m]
         self.finger_y = 0.0  #: the same along the belt, where the finger moves at +v_y [m]
+        self.belt_travel = 0.0  #: how far the belt has moved [m]
         self.psi = math.pi / 2.0  #: angle of the finger tip's pole in `finger_base` [rad]
         self.touching = True  #: whether finger and object touch
         self.sigma = config.sigma  #: position of the disk along its path around the object [m]
@@ -227,7 +228,8 @@ class Rig:
     def joints(self) -> tuple[float, ...]:
         """Angles of the finger's two moving joints and, if it has one, of the wrist [rad]."""
         finger = self.config.finger
-        links = finger.inverse(self._tip.x + self.finger_x, self._tip.y)
+        pose = self.finger_pose
+        links = finger.inverse(pose.x, pose.y)
         if self.config.tip_turns:
             return links
         return *links, self.psi - pole_angle(finger.mount_angle, links)
@@ -235,7 +237,8 @@ class Rig:
     @property
     def finger_pose(self) -> FingerPose:
         """Pose of the finger tip in `finger_base`."""
-        return FingerPose(self._tip.x + self.finger_x, self._tip.y, self.psi)
+        off_line = self.finger_y - self.belt_travel
+        return FingerPose(self._tip.x + self.finger_x, self._tip.y + off_line, self.psi)
 
     @property
     def object_in_finger_disk(self) -> Pose:
@@ -344,14 +347,19 @@ class Rig:
         knuckle, distal = link_angles(x, self._tip.y, self._tip.a, self._tip.b)
         return knuckle + distal if self.config.tip_turns or math.isnan(distal) else self.psi
 
-    def _move(self, v_x: float, psi: float, duration: float, belt_running: bool) -> None:
+    def _move(
+        self, v_x: float, psi: float, duration: float, belt_running: bool, v_along: float = 0.0
+    ) -> None:
         """Move the disk's centre and the belt straight on, and what they push."""
-        v_y = 0.0
+        belt_speed = 0.0
         if belt_running:
-            v_y = self.faults.belt.mean_speed(self.config.belt_speed, self.time, duration)
+            belt_speed = self.faults.belt.mean_speed(self.config.belt_speed, self.time, duration)
+        v_y = belt_speed + v_along
         self.time += duration
+        self.belt_travel += belt_speed * duration
         if v_x == v_y == 0.0:
             self.mode = FREE
+            self.psi = psi
             return
         self.phi = math.atan2(v_y, v_x)
         before = self.object_pose

@@ -5,10 +5,13 @@
 import math
 from collections import deque
 from dataclasses import dataclass
+from typing import Generic, TypeVar
 
 import numpy as np
 
 from tactile_push.mechanics.compiled import equation
+
+T = TypeVar('T', float, tuple[float, ...])
 
 FLAT = 1e-6  # how far a path may bend away from its straight pushes [m]; no sensor sees that
 FOLLOWED = 1e-9  # a velocity so near to its command has reached it [m/s]
@@ -79,15 +82,16 @@ class Workspace:
         return duration
 
 
-class DelayLine:
+class DelayLine(Generic[T]):
     """Commands on their way to the finger. It may be made longer or shorter at any time."""
 
-    def __init__(self) -> None:
-        self._commands = deque([(-math.inf, 0.0)])  # since when, and the velocity
+    def __init__(self, rest: T) -> None:
+        # Since when, and the velocity.
+        self._commands: deque[tuple[float, T]] = deque([(-math.inf, rest)])
 
     def arriving(
-        self, command: float, start: float, duration: float, delay: float
-    ) -> list[tuple[float, float]]:
+        self, command: T, start: float, duration: float, delay: float
+    ) -> list[tuple[T, float]]:
         """Send a command; return the velocities that arrive meanwhile and for how long [m/s, s]."""
         commands = self._commands
         if command != commands[-1][1]:

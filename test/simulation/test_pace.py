@@ -347,3 +347,31 @@ def test_time_waits_for_a_contact_that_is_no_older_than_the_lag():
         loop.pace.reading(loop.time)
         loop.pace.contact(loop.time - 0.05)
         loop.pace.command(loop.time, loop.time)
+
+
+def test_time_waits_for_the_servo_s_answer_to_joint_states_and_command():
+    loop = Loop(10.0)
+    loop.close()
+    loop.pace.answer(loop.time, loop.time)
+    loop.poll_for(0.1)
+    stands = loop.time
+    assert loop.poll_for(0.05) == 0
+    loop.close()
+    assert loop.poll_for(0.05) == 0  # contact and command are there, the answer is not
+    loop.pace.answer(stands, 0.0)
+    assert loop.poll_for(0.05) == 0  # it has not had the command
+    loop.pace.answer(stands, stands)
+    assert loop.poll_for(0.1) > 0
+
+
+def test_time_does_not_wait_for_a_servo_that_has_gone_or_never_was():
+    loop = Loop(10.0)
+    for answered in (False, True):
+        if answered:
+            loop.pace.answer(loop.time, loop.time)
+        before = loop.time
+        while loop.time < before + 1.0:
+            loop.close()
+            loop.poll()
+            loop.wall += 0.001
+    assert loop.wall - loop.start < 2.0 / 10.0 + PATIENCE + 0.4

@@ -110,7 +110,7 @@ def at(pieces, time):
 )
 @PROPERTY
 def test_commands_arrive_after_the_delay_and_the_finger_rests_before(commands, delay):
-    pieces = arriving(DelayLine(), commands, 0.1, delay)
+    pieces = arriving(DelayLine(0.0), commands, 0.1, delay)
     for i in range(10 * len(commands)):
         sent = (i + 0.5) / 100.0 - delay
         if abs(sent / 0.1 - round(sent / 0.1)) > 1e-6:  # not just at a change
@@ -119,13 +119,13 @@ def test_commands_arrive_after_the_delay_and_the_finger_rests_before(commands, d
 
 
 def test_undelayed_command_arrives_in_one_piece_to_the_bit():
-    line = DelayLine()
+    line = DelayLine(0.0)
     for k, command in enumerate([0.1, 0.1, -0.3, 0.0]):
         assert line.arriving(command, k * 0.1, 0.1, 0.0) == [(command, 0.1)]
 
 
 def test_delay_line_changes_its_length_while_commands_are_under_way():
-    line = DelayLine()
+    line = DelayLine(0.0)
     assert line.arriving(1.0, 0.0, 0.1, 0.3) == [(0.0, 0.1)]
     assert line.arriving(2.0, 0.1, 0.1, 0.0) == [(2.0, 0.1)]  # what was under way is there at once
     assert line.arriving(3.0, 0.2, 0.1, 0.05) == [

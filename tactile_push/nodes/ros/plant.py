@@ -7,7 +7,7 @@ import time
 from abc import abstractmethod
 from collections import Counter
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar, cast
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped, TwistStamped, WrenchStamped
@@ -17,6 +17,7 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64MultiArray
 from visualization_msgs.msg import MarkerArray
 
 from tactile_push.devices import Sentence, encode
@@ -25,7 +26,10 @@ from tactile_push.interface import (
     COMMAND,
     CONTACT,
     JOINT_STATES,
+    JOINT_VELOCITIES,
     MARKERS,
+    SERVO_COMMANDS,
+    SERVO_STATE,
     TOPICS,
     TRUE_POSE,
     TRUE_STATE,
@@ -40,13 +44,21 @@ from tactile_push.nodes.ros.messages import publish
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare, refusing
 from tactile_push.nodes.ros.qos import FRESHEST, PUBLISHED
 from tactile_push.parameters.sim_plant import SimPlantParameters, faults, faults_on, mount
+from tactile_push.pipeline import by_name
 from tactile_push.pipeline.messages import joint_state_fields, pose_fields, wrench_fields
-from tactile_push.simulation import ForceReadout, Readout, Rig, serve
+from tactile_push.simulation import ForceReadout, JointRig, Readout, Rig, serve
+from tactile_push.simulation.commanded import (
+    NOT_FINITE,
+    OBEYED,
+    CommandedJoints,
+    CommandedVelocity,
+)
 from tactile_push.simulation.pace import Pace
 from tactile_push.tactile import Reading
 
 if TYPE_CHECKING:
     from tactile_push.nodes.ros.plant_camera import PlantCamera
+    from tactile_push.simulation.mujoco_joint_rig import MujocoJointRig
     from tactile_push.simulation.mujoco_rig import MujocoRig
 
 P = TypeVar('P', bound=SimPlantParameters)
@@ -100,8 +112,6 @@ class PlantNode(Node, Generic[P]):
         self._time = 0.0
         self._last_wall = time.monotonic()
         self._last_clock = self._last_wall
-        self._v_x = 0.0
-        self._last_command: float | None = None
         self._commanders = 0
         self._joint_states = self.create_publisher(JointState, JOINT_STATES, PUBLISHED)
         self._object_pose = self.create_publisher(PoseStamped, TRUE_POSE, PUBLISHED)
@@ -115,10 +125,24 @@ class PlantNode(Node, Generic[P]):
         if p.publish_clock:
             self._clock_publisher = self.create_publisher(Clock, CLOCK, 10)
             self.create_subscription(PoseStamped, CONTACT, self._on_contact, FRESHEST)
-        self.create_subscription(TwistStamped, COMMAND, self._on_command, 10)
+        self._hear_commands(p)
         steady_clock = NodeClock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(self._period / p.real_time_factor, self._on_timer, clock=steady_clock)
         self.create_timer(LOOK_PERIOD, self._count_commanders, clock=steady_clock)
+
+    def _hear_commands(self, p: P) -> None:
+        """Subscribe to what moves the finger, and to what time has to wait for."""
+        self._commanded: CommandedVelocity | CommandedJoints
+        self._topic = SERVO_COMMANDS if p.commands == JOINT_VELOCITIES else COMMAND
+        if p.commands != JOINT_VELOCITIES:
+            self._commanded = CommandedVelocity(self._rig, p.command_timeout)
+            self.create_subscription(TwistStamped, COMMAND, self._on_command, 10)
+            return
+        self._commanded = CommandedJoints(cast('JointRig | MujocoJointRig', self._rig))
+        self.create_subscription(Float64MultiArray, SERVO_COMMANDS, self._on_velocities, 10)
+        if p.publish_clock:
+            self.create_subscription(TwistStamped, COMMAND, self._on_servo_s_command, 10)
+            self.create_subscription(JointState, SERVO_STATE, self._on_servo_state, 10)
 
     def destroy_node(self) -> None:
         """Stop serving the device and end."""
@@ -131,20 +155,38 @@ class PlantNode(Node, Generic[P]):
         self._readout.sensor = self._rig.faults.sensor
 
     def _count_commanders(self) -> None:
-        self._commanders = self.count_publishers(COMMAND)
+        self._commanders = self.count_publishers(self._topic)
 
     def _on_command(self, message: TwistStamped) -> None:
-        self._counts['commands'] += 1
-        v_x = message.twist.linear.x
-        if not math.isfinite(v_x):
-            self._counts['commands not finite'] += 1
-            self._v_x = 0.0  # whoever sends this is not to be trusted with a moving finger
-        else:
-            fastest = self._settings.max_speed
-            self._v_x = min(max(v_x, -fastest), fastest)
-            self._counts['commands too fast'] += self._v_x != v_x
-            self._last_command = self._now()
+        assert isinstance(self._commanded, CommandedVelocity)
+        fastest = self._settings.max_speed
+        kind = self._commanded.take(message.twist.linear.x, fastest, self._now())
+        if kind != NOT_FINITE:
             self._pace.command(_seconds(message), self._time)
+        self._obey(kind)
+
+    def _on_velocities(self, message: Float64MultiArray) -> None:
+        assert isinstance(self._commanded, CommandedJoints)
+        self._obey(self._commanded.take(message.data, self._settings.max_speed))
+
+    def _on_servo_s_command(self, message: TwistStamped) -> None:
+        """Let time wait for the servo's answer to a command; the belt starts with the first."""
+        assert isinstance(self._commanded, CommandedJoints)
+        self._commanded.started = True
+        self._pace.command(_seconds(message), self._time)
+        self._on_timer()
+
+    def _on_servo_state(self, message: JointState) -> None:
+        values, now = by_name(message.name, message.position), _seconds(message)
+        ages = (values.get(name, math.nan) for name in ('joint_age', 'command_age'))
+        self._pace.answer(*(now - age for age in ages))
+        self._on_timer()
+
+    def _obey(self, kind: str) -> None:
+        """Count a command, and let it take effect at once."""
+        self._counts[OBEYED] += 1
+        if kind != OBEYED:
+            self._counts[kind] += 1
         if self._clock_publisher is None:
             self._step(self._real_time())
         else:
@@ -163,7 +205,7 @@ class PlantNode(Node, Generic[P]):
         was_commanded = self._pace.commanded
         if self._pace.may_reach(self._time + self._period, self._period, wall):
             if was_commanded and not self._pace.commanded:
-                self._v_x = 0.0  # the command is overdue
+                self._commanded.expire()
             self._last_clock = wall
             self._step(self._period)
             self._read()
@@ -186,12 +228,7 @@ class PlantNode(Node, Generic[P]):
 
     def _step(self, step: float) -> None:
         """Move belt, object and finger, and publish where they are."""
-        if self._last_command is None:
-            self._rig.step(0.0, step, belt_running=False)
-        else:
-            if self._now() - self._last_command >= self._settings.command_timeout:
-                self._v_x = 0.0
-            self._rig.step(self._v_x, step)
+        self._commanded.move(step, self._now())
         self._steps += 1
         if self._clock_publisher is None:
             self._time += step
@@ -265,11 +302,11 @@ class PlantNode(Node, Generic[P]):
             'phi': rig.phi,
             'mode': float(rig.mode),
             'v_x': rig.v_x,
-            'v_x_commanded': self._v_x,
+            'v_x_commanded': self._commanded.v_x,
             'finger_x': rig.finger_x,
             'psi': rig.psi,
             'belt_speed': rig.v_y,
-            'belt_travel': rig.finger_y,
+            'belt_travel': rig.belt_travel,
         }
         publish(self._state, joint_state_fields(at, fields))
 
@@ -284,28 +321,27 @@ class PlantNode(Node, Generic[P]):
             'contact': rig.mode_name if rig.touching else 'none',
             'finger x [m]': rig.finger_x,
             'v_x [m/s]': rig.v_x,
-            'v_x commanded [m/s]': self._v_x,
+            'v_x commanded [m/s]': self._commanded.v_x,
             'belt speed [m/s]': rig.v_y,
             'faults': faulty or 'none',
-            'publishers of finger/cmd_vel': self._commanders,
+            f'publishers of {self._topic}': self._commanders,
         }
         return Health(level, message, values)
 
     def _judgement(self) -> tuple[bytes, str]:
-        if self._last_command is not None:
-            if self._now() - self._last_command >= self._settings.command_timeout:
-                return ERROR, 'no command, finger stopped'
-            if self._rig.at_workspace_limit:
-                return ERROR, 'finger at its workspace limit'
+        if self._commanded.overdue(self._now()):
+            return ERROR, 'no command, finger stopped'
+        if self._commanded.started and self._rig.at_workspace_limit:
+            return ERROR, 'finger at its workspace limit'
         if self._commanders > 1:
-            return WARN, 'several publishers of finger/cmd_vel'
-        if self._last_command is None:
+            return WARN, f'several publishers of {self._topic}'
+        if not self._commanded.started:
             return OK, 'belt stands, waiting for the first command'
         if not self._rig.touching:
             return WARN, 'finger does not touch the object'
         return OK, 'pushing'
 
 
-def _seconds(message: PoseStamped | TwistStamped) -> float:
+def _seconds(message: PoseStamped | TwistStamped | JointState) -> float:
     stamp = message.header.stamp  # rclpy's Time takes no negative ones
     return stamp.sec + stamp.nanosec * 1e-9
