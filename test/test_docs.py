@@ -15,7 +15,8 @@ import tactile_push.mechanics
 from tactile_push.devices import decode
 from tactile_push.launching import FingerArguments
 from tactile_push.launching.plan import LAUNCH_SECTION
-from tactile_push.parameters import PARAMETERS
+from tactile_push.parameters import PARAMETERS, FingerServoParameters
+from tactile_push.parameters.finger_servo import make_servo
 
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / 'README.md').read_text()
@@ -105,6 +106,16 @@ def test_every_promise_names_tests_that_there_are():
         assert named, promise
         for name in named:
             assert f'def {name}(' in tests, name
+
+
+def test_parameters_of_the_servo_in_the_tutorial_are_taken():
+    page = (ROOT / 'docs' / 'tutorials' / 'own_finger.md').read_text()
+    blocks = map(yaml.safe_load, re.findall(r'^```yaml\n(.*?)^```', page, re.DOTALL | re.MULTILINE))
+    examples = [b['/**/finger_servo']['ros__parameters'] for b in blocks if '/**/finger_servo' in b]
+    assert len(examples) == 2
+    for given in examples:
+        assert FingerServoParameters.taken(given) == given
+        make_servo(FingerServoParameters.of(given))
 
 
 def test_examples_of_the_wire_format_are_valid():

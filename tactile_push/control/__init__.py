@@ -3,7 +3,6 @@
 """The control law and when it may act: Section IV."""
 
 from tactile_push.control.joint_rates import (
-    Arm,
     JointBounds,
     JointRates,
     check_workspace,
@@ -76,7 +75,6 @@ __all__ = [
     'UNKNOWN',
     'WAITING',
     'WORKSPACE_LIMIT',
-    'Arm',
     'Drift',
     'JointBounds',
     'JointRates',

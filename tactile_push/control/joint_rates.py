@@ -60,8 +60,9 @@ class JointBounds:
     joint_min: tuple[float, ...]  #: least position of each joint
     joint_max: tuple[float, ...]  #: greatest position of each joint
     joint_speed: tuple[float, ...]  #: greatest speed of each joint
-    workspace_min: float = -0.105  #: least x of the finger's disk in `finger_base` [m]
-    workspace_max: float = 0.105  #: greatest x of the finger's disk in `finger_base` [m]
+    #: least x of the finger's disk in `finger_base` [m]; 5 mm beyond where the law stops the finger
+    workspace_min: float = -0.11
+    workspace_max: float = 0.11  #: greatest x of the finger's disk in `finger_base` [m]
     max_speed: float = 0.02  #: bound on |v_x|, and on the velocity back to the line [m/s]
     #: manipulability below which the finger only moves where it grows; 0.2 is 11.5 degrees from
     #: stretched

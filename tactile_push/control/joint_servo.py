@@ -81,7 +81,8 @@ class JointServo:
     """Turns a velocity across the belt into joint velocities.
 
     From the first command on the disk's centre stays on the line across the belt on which it is
-    then, by feedback. All times are by a clock that cannot be set, unless time is simulated.
+    then, by feedback as it moves. A command of 0 is 0 for every joint. All times are by a clock
+    that cannot be set, unless time is simulated.
 
     Parameters
     ----------
@@ -213,11 +214,12 @@ class JointServo:
         y = arm.centre(joints)[1]
         if math.isnan(self._line):
             self._line = y
+        if self._v_x == 0.0:
+            return 1.0  # a finger that is to stand, stands
         v_x = _within(self._v_x, fastest)
         v_y = _within(self.limits.line_gain * (self._line - y), fastest)
-        self._rates, share, limit = joint_rates(arm, self.bounds, joints, v_x, v_y)
-        self._reason = limit if v_x else NO_REASON  # a finger that is to stand, stands
-        return share * v_x / self._v_x if v_x else share
+        self._rates, share, self._reason = joint_rates(arm, self.bounds, joints, v_x, v_y)
+        return share * v_x / self._v_x
 
     def _cause_to_rest(self, now: float) -> str:
         if not now - self._located_at <= self.limits.joint_state_timeout:

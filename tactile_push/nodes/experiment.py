@@ -22,6 +22,8 @@ from tactile_push.interface import (
     PARAMETER_EVENTS,
     RECORDED,
     SENSING_STATE,
+    SERVO_COMMANDS,
+    SERVO_STATE,
     WRENCH,
 )
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare, refusing
@@ -30,7 +32,7 @@ from tactile_push.parameters import ExperimentParameters
 from tactile_push.recording.recording import Recording
 
 # Without these recorded from the beginning no experiment starts.
-MORE = (WRENCH,)  # of nodes that not every experiment has
+MORE = (WRENCH, SERVO_COMMANDS, SERVO_STATE)  # of nodes that not every experiment has
 AWAITED = tuple(topic for topic in RECORDED if topic not in (CLOCK, PARAMETER_EVENTS, *MORE))
 LOOK_PERIOD = 0.05  # at the recorder and the answers [s]; short beside the start of a node
 

@@ -36,7 +36,7 @@ from tactile_push.nodes.ros.messages import publish
 from tactile_push.nodes.ros.node_time import NodeTime
 from tactile_push.nodes.ros.parameters import declare, refusing
 from tactile_push.nodes.ros.process import run
-from tactile_push.nodes.ros.qos import PUBLISHED, SENSOR_DATA
+from tactile_push.nodes.ros.qos import EVERYBODY, PUBLISHED, SENSOR_DATA
 from tactile_push.parameters.finger_servo import FingerServoParameters, make_limits, make_servo
 from tactile_push.pipeline import Moment, Servo
 from tactile_push.pipeline.stamps import stamp_of
@@ -83,8 +83,11 @@ class FingerServo(ManagedNode):
         self._subscriptions_made = (
             self.create_subscription(TwistStamped, COMMAND, self._on_command, SENSOR_DATA),
             self.create_subscription(JointState, JOINT_STATES, self._on_joint_states, SENSOR_DATA),
-            self.create_subscription(
-                Float64MultiArray, SERVO_COMMANDS, self._on_velocities, SENSOR_DATA
+            *(
+                self.create_subscription(
+                    Float64MultiArray, SERVO_COMMANDS, self._on_velocities, qos
+                )
+                for qos in EVERYBODY
             ),
         )
         return TransitionCallbackReturn.SUCCESS

@@ -13,7 +13,6 @@ from rclpy.clock import Clock, JumpThreshold, TimeJump
 from rclpy.clock_type import ClockType
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
-from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.timer import Timer
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
@@ -26,7 +25,7 @@ from tactile_push.nodes.ros.messages import publish
 from tactile_push.nodes.ros.node_time import NodeTime
 from tactile_push.nodes.ros.parameters import declare, refusing
 from tactile_push.nodes.ros.process import run
-from tactile_push.nodes.ros.qos import PUBLISHED, SENSOR_DATA
+from tactile_push.nodes.ros.qos import EVERYBODY, PUBLISHED, SENSOR_DATA
 from tactile_push.parameters.push_controller import (
     PushControllerParameters,
     check_trimmed,
@@ -37,11 +36,6 @@ from tactile_push.parameters.push_controller import (
 from tactile_push.pipeline import Control, edge_angle
 from tactile_push.pipeline.stamps import stamp_of
 
-# A reliable subscription misses no command; a best-effort one hears publishers that are so, too.
-COMMANDS = (
-    QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE),
-    QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT),
-)
 STANDSTILL = 1.0  # without a tick for so long after a period, time stands still [s]; picked
 NO_LIMIT = 'use_joint_states: false does without, and keeps no limit of the workspace'
 REMEMBERED = 32  # own commands that may still be on their way back here: 3 s of the paper's rate
@@ -104,7 +98,7 @@ class PushController(ManagedNode):
             self.create_subscription(PoseStamped, CONTACT, self._on_contact, SENSOR_DATA),
             *(
                 self.create_subscription(TwistStamped, COMMAND, self._on_command, qos)
-                for qos in COMMANDS
+                for qos in EVERYBODY
             ),
         )
         return TransitionCallbackReturn.SUCCESS

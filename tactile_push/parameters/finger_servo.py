@@ -4,7 +4,8 @@
 
 from dataclasses import dataclass
 
-from tactile_push.control import Arm, JointBounds, JointServo, ServoLimits
+from tactile_push.control import JointBounds, JointServo, ServoLimits
+from tactile_push.control.joint_rates import Arm
 from tactile_push.interface import KINEMATICS, LINEAR, PLANAR
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter

@@ -17,10 +17,14 @@ from tactile_push.interface import (
     COMMAND,
     CONTACT,
     CONTROLLER_STATE,
+    FINGER_SERVO,
+    JOINT_VELOCITIES,
     PLANTS,
     PUSH_CONTROLLER,
     SENSOR_DRIVER,
     SENTENCE,
+    SERVO_COMMANDS,
+    SERVO_STATE,
     SIM_PLANT,
     TACTILE,
     TRUE_STATE,
@@ -104,6 +108,7 @@ class Rig:
         config: str | Path = 'block',
         *,
         controller: bool = True,
+        servo: bool = False,
         simulator: str = SIM_PLANT,
         sensor: str = SENTENCE,
         **plant: Any,
@@ -119,6 +124,8 @@ class Rig:
         controller : bool, optional
             Whether to start `push_controller`; without it the test's own controller moves the
             finger.
+        servo : bool, optional
+            Whether `finger_servo` moves the joints of the plant's finger.
         simulator : str, optional
             The node that simulates, `sim_plant` or `mujoco_plant`.
         sensor : str, optional
@@ -128,15 +135,19 @@ class Rig:
         """
         self._config = config if isinstance(config, Path) else config_file(f'{config}.yaml')
         kind = SENSOR_KINDS[sensor]
-        self.start_node(simulator, TIMING | kind.plant | plant)
+        moved_by = {'commands': JOINT_VELOCITIES} if servo else {}
+        self.start_node(simulator, TIMING | kind.plant | moved_by | plant)
         simulated = {'use_sim_time': True}
         self.start_node(kind.node, kind.parameters | simulated)
         self.start_node('contact_geometry', simulated)
         hearing = {CONTACT: 2}
+        if servo:
+            self.start_node(FINGER_SERVO, simulated)
+            hearing |= {SERVO_STATE: 1, SERVO_COMMANDS: 3}
         if controller:
             self.start_node(PUSH_CONTROLLER, {'autostart': False, **simulated})
             self._change_controller(Transition.TRANSITION_CONFIGURE)
-            hearing = {CONTACT: 3, COMMAND: 4, CONTROLLER_STATE: 1}
+            hearing |= {CONTACT: 3, COMMAND: 5 if servo else 4, CONTROLLER_STATE: 1}
         self.observer.wait_for(
             lambda: self.contacts and self.truth and self._heard_by(hearing),
             'all nodes to hear each other',

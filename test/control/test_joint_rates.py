@@ -147,7 +147,7 @@ AXIS = JointBounds((-0.2,), (0.3,), (0.05,))
 def test_an_axis_follows_within_its_bounds():
     assert joint_rates(LinearAxis(), AXIS, (0.0,), 0.01, 0.0) == ((0.01,), 1.0, NO_REASON)
     assert joint_rates(LinearAxis(), AXIS, (0.0,), -0.1, 0.0) == ((-0.05,), 0.5, NO_REASON)
-    assert joint_rates(LinearAxis(), AXIS, (0.105,), 0.01, 0.0).limit == WORKSPACE_LIMIT
+    assert joint_rates(LinearAxis(), AXIS, (0.11,), 0.01, 0.0).limit == WORKSPACE_LIMIT
     short = replace(AXIS, joint_max=(0.05,))
     assert joint_rates(LinearAxis(), short, (0.05,), 0.01, 0.0).limit == JOINT_LIMIT
     assert joint_rates(LinearAxis(), short, (0.05,), -0.01, 0.0).rates == (-0.01,)
@@ -173,7 +173,7 @@ def test_joint_limits_that_leave_a_workspace_are_taken():
             replace(WIDE, joint_min=(1.5, -1.1), joint_max=(1.6, -0.9), workspace_min=-0.05),
             'expected x between -0.05 and 1 m, the workspace, got -0.1',
         ),
-        (LinearAxis(), replace(AXIS, joint_min=(0.2,)), 'expected x between -0.105 and 0.105 m'),
+        (LinearAxis(), replace(AXIS, joint_min=(0.2,)), 'expected x between -0.11 and 0.11 m'),
     ],
 )
 def test_joint_limits_that_leave_no_workspace_are_refused(arm, bounds, reason):

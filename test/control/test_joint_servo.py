@@ -90,12 +90,21 @@ def test_disk_follows_the_command_and_keeps_its_line(servo):
 
 def test_disk_goes_back_to_its_line_at_the_rate_of_the_gain(servo):
     drive = Drive(servo)
-    drive.run(0.0, 0.1)
+    drive.run(1e-6, 0.1)
     drive.joints = list(FINGER.inverse(-0.06, 0.0790))
     servo._stamp = -math.inf  # nobody watched how it came there
-    drive.run(0.0, 0.2)
+    drive.run(1e-6, 0.2)
     # By Euler's method, (1 - 5/s 0.02 s)^10 of the millimetre.
     assert drive.place == pytest.approx((-0.06, 0.08 - 1e-3 * 0.9**10), abs=1e-6)
+
+
+def test_a_command_of_0_is_0_for_every_joint_wherever_the_disk_is(servo):
+    drive = Drive(servo)
+    drive.run(0.005, 0.1)
+    drive.joints = list(FINGER.inverse(-0.06, 0.0795))
+    step = drive.run(0.0, PERIOD)
+    assert said(step) == (FOLLOWING, '')
+    assert step.rates == (0.0, 0.0)
 
 
 def test_before_the_first_command_it_rests_and_knows_no_line(servo):

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 MAX_SPEED = 0.02  # [m/s]
 MAX_STEP = 0.05 * 0.1  # max_acceleration times the control period [m/s]
+MAX_JOINT_SPEED = 2.0  # [rad/s]
 GAP = 0.06  # of three periods of the sensor [s]
 OLDEST = 0.3  # a reading that is stamped so much later than it was sent is old [s]
 
@@ -48,6 +49,26 @@ def wrong_commands(velocities: Sequence[float], before: float = 0.0) -> list[str
             found.append(f'step of {1000.0 * (v_x - before):.1f} mm/s')
         before = v_x
     return found
+
+
+def wrong_velocities(velocities: Iterable[Sequence[float]]) -> list[str]:
+    """Find velocities of joints that are no finite numbers or too fast.
+
+    Parameters
+    ----------
+    velocities : iterable of sequence of float
+        The velocities of both joints [rad/s].
+
+    Returns
+    -------
+    list of str
+        What is wrong.
+    """
+    return [
+        f'joint velocities of {list(rates)}'
+        for rates in velocities
+        if len(rates) != 2 or not all(abs(rate) <= MAX_JOINT_SPEED for rate in rates)
+    ]
 
 
 def wrong_readings(
@@ -104,7 +125,7 @@ class Watch:
     def __init__(self, finger: 'Finger', aged: bool) -> None:
         self._finger = finger
         self._oldest = OLDEST if aged else math.inf
-        self._commands = self._readings = self._contacts = 0
+        self._commands = self._readings = self._contacts = self._velocities = 0
         self._v_x = 0.0
         self._numbers: set[int] = set()
         self._stamps: set[tuple[int, int]] = set()
@@ -122,6 +143,9 @@ class Watch:
         self._commands = len(finger.commands)
         found = wrong_commands(velocities, self._v_x)
         self._v_x = velocities[-1] if velocities else self._v_x
+        rates = [m.data for m in finger.velocities[self._velocities :]]
+        self._velocities = len(finger.velocities)
+        found += wrong_velocities(rates)
         tactile = finger.tactile[self._readings :]
         self._readings = len(finger.tactile)
         self._stamps.update(map(stamp_of, tactile))

@@ -13,15 +13,20 @@ from geometry_msgs.msg import WrenchStamped
 from lifecycle_msgs.msg import State
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from sensor_msgs.msg import Image, JointState
+from std_msgs.msg import Float64MultiArray
 from std_srvs.srv import Trigger
 
-from tactile_push.control import PUSHING, STOP_REASONS, TICKS_LOST
+from tactile_push.control import PUSHING, SERVO_STOP_REASONS, STOP_REASONS, TICKS_LOST
 from tactile_push.interface import (
     CONTACT_GEOMETRY,
+    FINGER_SERVO,
     IMAGE,
     JOINT_STATES,
+    JOINT_VELOCITIES,
     PUSH_CONTROLLER,
     SENSOR_DRIVER,
+    SERVO_COMMANDS,
+    SERVO_STATE,
     SIM_PLANT,
     WRENCH,
 )
@@ -67,7 +72,7 @@ class Finger(Rig):
         Its nodes.
     foreign : set of (int, int)
         Stamps of the messages that the tool itself has published.
-    diagnostics : Heard
+    diagnostics, joint_states, velocities, servo_states : Heard
         What was heard so far.
     """
 
@@ -82,11 +87,16 @@ class Finger(Rig):
         self.proxy = DeviceProxy(port)
         self._sensor = SENSOR_KINDS[setup.sensor]
         self.chain = (SIM_PLANT, self._sensor.node, CONTACT_GEOMETRY, PUSH_CONTROLLER)
+        if setup.servo:
+            self.chain += (FINGER_SERVO,)
         if setup.relay:
             self.relay = Relay(observer, RELAYED[setup.relay], self.name(setup.relay))
         self.foreign: set[tuple[int, int]] = set()
         self._desired = -DESIRED
         self.diagnostics = observer.hear(DiagnosticArray, '/diagnostics')
+        self.velocities = observer.hear(Float64MultiArray, self.name(SERVO_COMMANDS))
+        self.joint_states = observer.hear(JointState, self.name(JOINT_STATES))
+        self.servo_states = observer.hear(JointState, self.name(SERVO_STATE))
 
     def begin(self, node: str, **more: Any) -> None:
         """Start one of its nodes, with more parameters."""
@@ -98,6 +108,8 @@ class Finger(Rig):
             parameters |= self._sensor.plant
             # Balanced, so that an object that is not controlled for a while stays in reach.
             parameters |= {'theta_initial': 0.0, 'd_initial': 0.0}
+            if self._setup.servo:
+                parameters['commands'] = JOINT_VELOCITIES
             if self._setup.relay:
                 arguments = ('-r', f'{self._setup.relay}:={self.relay.source}')
         elif node == SENSOR_DRIVER:
@@ -229,6 +241,20 @@ class Finger(Rig):
     def reasons_since(self, at: float) -> set[str]:
         """Return all reasons that the controller gave after a moment, '' for none."""
         return {STOP_REASONS[int(field(m, 'stop_reason'))] for m in self.states.since(at)}
+
+    def expect_servo(self, reason: str, patience: float = 2.0) -> None:
+        """Wait for the servo to say why the joints stand."""
+
+        def says() -> bool:
+            code = int(field(self.servo_states[-1], 'stop_reason'))
+            return SERVO_STOP_REASONS[code] == reason
+
+        self.observer.wait_for(says, f'the servo to say {reason}', patience)
+
+    def joints(self) -> tuple[float, float]:
+        """Return where the joints are now [rad]."""
+        heard = self.observer.wait_for(lambda: self.joint_states, 'joint states')
+        return field(heard[-1], 'proximal_joint'), field(heard[-1], 'distal_joint')
 
     def expect_reason(self, *reasons: str) -> None:
         """Wait for the controller to say why it has stopped."""

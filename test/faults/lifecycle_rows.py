@@ -11,6 +11,8 @@ from geometry_msgs.msg import TwistStamped
 from lifecycle_msgs.msg import State, Transition
 from sensor_msgs.msg import JointState
 
+from tactile_push.interface import NODES
+
 from .bench import Bench, expect
 from .promise import NO_BENCH, fault
 
@@ -29,6 +31,7 @@ NO_SHUTDOWN = tuple(range(5))  # create, configure, clean up, activate, deactiva
 EVERY = (*range(9), 10, 11, 20, 30, 42, 62, 255)  # internal and unknown ones too
 REQUESTS = 60
 MANAGED = ('push_controller', 'sensor_driver')
+EVERY_MANAGED = tuple(node.name for node in NODES.values() if node.managed)
 
 
 def _ask(bench: Bench, node: str, state: int, transition: int) -> int:
@@ -69,7 +72,7 @@ def every_order(bench: Bench) -> None:
 @fault('lifecycle: every transition in every state', setup=NO_BENCH)
 def every_transition(bench: Bench) -> None:
     """Refuses, twice, what the state does not allow; nothing leads out of the last state."""
-    for name in MANAGED:
+    for name in EVERY_MANAGED:
         for goal in (UNCONFIGURED, INACTIVE, ACTIVE):
             bench.nodes.start(name, {'autostart': False})
             bench.observer.reach_state(name, goal)

@@ -16,6 +16,7 @@ SILENT = 0.45  # contact_timeout, one control period, the way of the last readin
 ONE_PERIOD = 0.2  # a control period, the way of the command, a period of the plant
 COMMAND_LOST = 0.6  # command_timeout of the plant, a period of its sensor, the way of the state
 SIGNAL = 0.2
+JOINTS_LOST = 0.3  # joint_state_timeout of the servo, the way of the last joint states and commands
 
 
 class BrokenPromiseError(Exception):
@@ -36,6 +37,8 @@ class Setup:
         What the fingers feel with, one of `interface.SENSORS`.
     own_clock : bool, optional
         Whether the tool publishes /clock and all nodes live by it.
+    servo : bool, optional
+        Whether `finger_servo` moves the joints of the plant's finger.
     controller : tuple of (str, object), optional
         More parameters of `push_controller`.
     """
@@ -44,6 +47,7 @@ class Setup:
     relay: str = ''
     sensor: str = SENTENCE
     own_clock: bool = False
+    servo: bool = False
     controller: tuple[tuple[str, Any], ...] = ()
 
 

@@ -14,7 +14,7 @@ import time
 import pytest
 
 from faults import FAULTS
-from faults.checks import wrong_commands, wrong_contacts, wrong_readings
+from faults.checks import wrong_commands, wrong_contacts, wrong_readings, wrong_velocities
 from faults.machine import HoldUps
 from faults.parameter_rows import wrong_values
 from faults.promise import (
@@ -336,6 +336,12 @@ def test_every_row_has_a_name_of_its_own_and_a_promise():
         'deactivated',
         'workspace limit',
         'contact not finite',
+        'servo killed',
+        'servo deactivated',
+        'servo without commands',
+        'servo without joint states',
+        'servo with a drive that stands',
+        'joint limit',
     )
     assert [word for word in asked_for if not any(word in name for name in names)] == []
 
@@ -346,6 +352,13 @@ def test_commands_are_finite_bounded_and_without_a_kick():
     assert wrong_commands([0.008], before=0.004) == []
     assert wrong_commands([math.nan, math.inf]) == ['command of nan', 'command of inf']
     assert wrong_commands([0.018, 0.022], before=0.016) == ['command of 22.0 mm/s']
+
+
+def test_velocities_of_joints_are_finite_bounded_and_of_both():
+    assert wrong_velocities([(0.0, -2.0), (1.9, 0.0)]) == []
+    wrong = [(2.1, 0.0), (0.0, math.nan), (0.0,), (0.0, 0.0, 0.0)]
+    assert len(wrong_velocities(wrong)) == 4
+    assert wrong_velocities([(0.0, math.inf)]) == ['joint velocities of [0.0, inf]']
 
 
 def test_readings_are_those_that_were_sent_once_and_fresh():

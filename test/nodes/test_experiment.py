@@ -10,7 +10,7 @@ from lifecycle_msgs.srv import ChangeState
 from sensor_msgs.msg import JointState
 
 from tactile_push.bags import BagReader
-from tactile_push.interface import CONTACT, LIVE_PAGE, RECORDED, TACTILE
+from tactile_push.interface import CONTACT, LIVE_PAGE, RECORDED, SERVO_STATE, TACTILE
 from tactile_push.nodes.experiment import AWAITED, MORE, Experiment
 from tactile_push.nodes.ros.parameters import ConfigurationError
 
@@ -31,6 +31,13 @@ class Controller:
 
 def test_all_that_every_experiment_has_is_awaited_but_time_and_parameters():
     assert set(RECORDED) - set(AWAITED) == {'/clock', '/parameter_events', *MORE}
+
+
+def test_a_servo_that_is_there_is_awaited_too(bench, tmp_path):
+    node = bench.start(Experiment, bag=tmp_path / 'bag')
+    assert node._more() == set()
+    bench.publisher(JointState, SERVO_STATE)
+    bench.until(lambda: node._more() == {'/finger_servo/state'})
 
 
 def test_the_controller_is_configured_and_not_activated_before_all_is_recorded(bench, tmp_path):

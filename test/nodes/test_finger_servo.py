@@ -11,6 +11,7 @@ from rclpy.parameter import Parameter as RosParameter
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
+from fuzzing.messages import extremes
 from support.node_bench import declared_topics
 from tactile_push.control import (
     ANOTHER_COMMAND,
@@ -42,6 +43,7 @@ from tactile_push.tactile import PlanarFinger
 
 FINGER = PlanarFinger(0.06, 0.08, math.pi / 2.0)
 NAMES = TOPICS[JOINT_STATES].field_names
+PERIOD = 0.02  # of joint states and commands [s]
 PATIENT = {'command_timeout': 10.0, 'joint_state_timeout': 10.0}  # on a loaded machine, too
 
 
@@ -51,29 +53,29 @@ class Drive:
     def __init__(self, bench):
         self.bench = bench
         self.joints = list(FINGER.inverse(-0.06, 0.08))
-        self.rates, self.at, self.v_x = (0.0, 0.0), None, 0.0
+        self.at, self.v_x = None, 0.0
         self.speaks = self.reports = self.obeys = True
-        self._joint_states = bench.publisher(JointState, JOINT_STATES)
-        self._commands = bench.publisher(TwistStamped, COMMAND)
+        self.joint_states = bench.publisher(JointState, JOINT_STATES)
+        self.commands = bench.publisher(TwistStamped, COMMAND)
         bench.hear(Float64MultiArray, SERVO_COMMANDS)
         bench.hear(JointState, SERVO_STATE)
 
     def go_on(self):
-        """Move the joints, tell where they are, and command."""
+        """Move the joints, tell where they are, and command, no faster than others can hear it."""
         now = self.bench.peer.get_clock().now()
         passed = 0.0 if self.at is None else (now - self.at).nanoseconds * 1e-9
+        if self.at is not None and passed < PERIOD:
+            return
         self.at = now
-        if self.obeys:
-            pairs = zip(self.joints, self.rates, strict=True)
+        if self.bench.heard[SERVO_COMMANDS] and self.obeys:
+            pairs = zip(self.joints, self.bench.heard[SERVO_COMMANDS][-1].data, strict=True)
             self.joints = [joint + rate * passed for joint, rate in pairs]
-        if self.bench.heard[SERVO_COMMANDS]:
-            self.rates = tuple(self.bench.heard[SERVO_COMMANDS][-1].data)
         stamp = now.seconds_nanoseconds()
         if self.reports:
             fields = joint_state_fields(stamp, dict(zip(NAMES, self.joints, strict=True)))
-            self._joint_states.publish(filled(JointState(), fields))
+            self.joint_states.publish(filled(JointState(), fields))
         if self.speaks:
-            self._commands.publish(filled(TwistStamped(), command_fields(stamp, self.v_x)))
+            self.commands.publish(filled(TwistStamped(), command_fields(stamp, self.v_x)))
 
     def until(self, *words):
         """Go on until the servo says a state, and perhaps a reason to stand."""
@@ -159,8 +161,10 @@ def test_silence_stops_it_within_a_period_and_it_goes_on_by_itself(
     assert answer.successful
     setattr(finger, silent, False)
     finger.until(STOPPED, reason)
-    assert finger.rests()
-    assert bench.health == (ERROR, f'stopped: {reason}')
+    bench.until(finger.rests)
+    level, words = bench.health
+    assert level == ERROR
+    assert words.startswith(f'stopped: {reason}')  # a late message is told, too
     setattr(finger, silent, True)
     finger.until(FOLLOWING)
 
@@ -169,7 +173,7 @@ def test_it_stops_though_nothing_arrives_at_all(bench, drive):
     _, finger = drive(command_timeout=0.3)
     finger.until(FOLLOWING)
     bench.until(lambda: finger.said()[0] == STOPPED)
-    assert finger.rests()
+    bench.until(finger.rests)
 
 
 def test_joint_states_of_other_names_stop_it_and_are_told(bench, drive):
@@ -184,7 +188,7 @@ def test_a_command_that_is_no_number_stops_it(bench, drive):
     _, finger = drive()
     finger.v_x = math.nan
     finger.until(STOPPED, IMPLAUSIBLE_COMMAND)
-    assert finger.rests()
+    bench.until(finger.rests)
     finger.v_x = 0.001
     finger.until(FOLLOWING)
 
@@ -195,7 +199,7 @@ def test_a_controller_that_does_not_follow_stops_it_until_it_is_activated_anew(b
     finger.until(FOLLOWING)
     finger.obeys = False
     finger.until(STOPPED, DOES_NOT_FOLLOW)
-    assert finger.rests()
+    bench.until(finger.rests)
     assert bench.health == (ERROR, 'stopped: finger does not follow, until activated anew')
     finger.obeys = True
     node.trigger_deactivate()
@@ -207,10 +211,11 @@ def test_another_commander_stops_it_until_it_is_activated_anew(bench, drive):
     _, finger = drive()
     finger.until(FOLLOWING)
     other = bench.publisher(Float64MultiArray, SERVO_COMMANDS)
+    bench.until(lambda: other.get_subscription_count() > 2)  # the servo's two, and the peer's
     assert bench.health[0] == WARN
-    other.publish(Float64MultiArray(data=[0.5, 0.0]))
+    other.publish(Float64MultiArray(data=[0.01, 0.0]))  # so slow that the finger follows
     finger.until(STOPPED, ANOTHER_COMMAND)
-    assert finger.rests()
+    bench.until(finger.rests)
 
 
 def test_a_slowed_command_is_a_warning(bench, drive):
@@ -232,6 +237,27 @@ def test_deactivated_it_sends_last_zeros_and_falls_silent(bench, drive):
     assert len(bench.heard[SERVO_COMMANDS]) == said
     node.trigger_activate()
     finger.until(FOLLOWING)
+
+
+def test_messages_at_their_extremes_give_no_velocity_that_is_not_finite_or_too_fast(bench, drive):
+    node, finger = drive()
+    finger.v_x = 0.005
+    finger.until(FOLLOWING)
+    stamp = bench.peer.get_clock().now().seconds_nanoseconds()
+    joints = joint_state_fields(stamp, dict(zip(NAMES, finger.joints, strict=True)))
+    command = filled(TwistStamped(), command_fields(stamp, 0.005))
+    for publisher, valid in (
+        (finger.commands, command),
+        (finger.joint_states, filled(JointState(), joints)),
+    ):
+        for _, message in extremes(valid):
+            finger.go_on()
+            publisher.publish(message)
+            heard = sum(node._counted.values())
+            bench.until(lambda heard=heard: sum(node._counted.values()) > heard)
+    heard = [rate for message in bench.heard[SERVO_COMMANDS] for rate in message.data]
+    assert all(abs(rate) <= 2.0 for rate in heard)
+    assert node._counted['implausible commands'] >= 3
 
 
 def test_joints_that_are_none_are_refused(bench):

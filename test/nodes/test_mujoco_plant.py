@@ -26,7 +26,9 @@ def plant(bench, tmp_path):
 
 
 def test_topics_are_those_of_the_interface(bench, plant):
-    plant(publish_clock=True, publish_wrench=True)
+    pytest.importorskip('cv2', reason="pip install 'tactile_push[camera]'")
+    all_that_it_can = {'publish_wrench': True, 'publish_image': True}
+    plant(publish_clock=True, commands='joint_velocities', **all_that_it_can)
     assert bench.topics() == declared_topics(MUJOCO_PLANT)
 
 

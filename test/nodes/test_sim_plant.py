@@ -20,7 +20,8 @@ def plant(bench, tmp_path):
 
 def test_topics_are_those_of_the_interface(bench, plant):
     pytest.importorskip('cv2', reason="pip install 'tactile_push[camera]'")
-    plant(publish_clock=True, publish_wrench=True, publish_image=True)
+    all_that_it_can = {'publish_wrench': True, 'publish_image': True}
+    plant(publish_clock=True, commands='joint_velocities', **all_that_it_can)
     assert bench.topics() == declared_topics(SIM_PLANT)
 
 
@@ -31,6 +32,14 @@ def test_topics_are_those_of_the_interface(bench, plant):
         ({'device': 'relative/path'}, 'parameter device: '),
         ({'object': 'ball'}, 'parameter object: expected one of block, disk'),
         ({'d_initial': 0.03}, 'parameter d_initial: expected'),
+        (
+            {'commands': 'joint_velocities', 'commanded_point': 'pole'},
+            'parameter commanded_point: expected centre with commands joint_velocities',
+        ),
+        (
+            {'commands': 'joint_velocities', 'servo_velocity_quantum': 0.001},
+            'parameter servo_velocity_quantum: expected 0.0 with commands',
+        ),
         ({'workspace_min': 0.2, 'workspace_max': 0.1}, 'parameter workspace_min: expected'),
     ],
 )

@@ -107,6 +107,7 @@ WITHOUT_UNIT = {
     'edge',
     'image_noise',
     'l_share',
+    'least_manipulability',
     'max_out_of_plane',
     'max_ticks_lost',
     'mu_c',

@@ -17,6 +17,7 @@ EXECUTABLES = {
     'contact_geometry',
     'active_sensing',
     'push_controller',
+    'finger_servo',
     'sim_plant',
     'mujoco_plant',
     'experiment',

@@ -7,11 +7,21 @@ from itertools import islice
 import numpy as np
 import pytest
 from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64MultiArray
 
 from tactile_push.control import STATES, PushControl, PushLaw, settle_step
-from tactile_push.parameters import MujocoPlantParameters
+from tactile_push.interface import SERVO_COMMANDS
+from tactile_push.parameters import FingerServoParameters, MujocoPlantParameters
+from tactile_push.parameters.finger_servo import make_servo
 from tactile_push.parameters.mujoco_plant import mujoco_config
-from tactile_push.simulation import control_periods, experiment, paper_block, paper_disk
+from tactile_push.simulation import (
+    JointRig,
+    control_periods,
+    experiment,
+    paper_block,
+    paper_disk,
+    servoed,
+)
 from tactile_push.testing import Rig, field, seconds
 
 STEPS, FEW_STEPS = 260, 60
@@ -79,6 +89,22 @@ def test_block_settles_by_what_a_camera_in_the_tip_sees_in_spite_of_its_noise(ri
     assert settled <= SETTLED_BY
     truth = np.array([field(m, 'theta') for m in rig.truth[-20:]])
     assert np.degrees(np.abs(truth - math.radians(-10.0))).max() < 3.0
+
+
+def test_loop_through_the_servo_goes_along_the_trajectory_without_clocks_and_processes(rig: Rig):
+    velocities = rig.observer.hear(Float64MultiArray, SERVO_COMMANDS)
+    rig.start('block', servo=True)
+    states = pushed(rig, FEW_STEPS)
+    theta = np.array([field(m, 'theta') for m in states])
+    same = JointRig(replace(paper_block(), tip_turns=True))
+    move = servoed(same, make_servo(FingerServoParameters()))
+    control = PushControl(PushLaw(0.05, 5.0, math.radians(-10.0)), 0.005, 0.1)
+    periods = islice(control_periods(same, control, 2, 0, move), len(states))
+    expected = np.array([tick.theta for tick in periods])
+    assert theta[0] - theta[-1] > math.radians(5.0)
+    assert np.degrees(np.abs(theta - expected)).max() < 0.5
+    assert field(states[-1], 'ticks_lost') == 0.0
+    assert np.isfinite([message.data for message in velocities]).all()
 
 
 def test_loop_on_mujoco_goes_along_the_trajectory_without_clocks_and_processes(rig: Rig):

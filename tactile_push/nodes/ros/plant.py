@@ -163,11 +163,20 @@ class PlantNode(Node, Generic[P]):
         kind = self._commanded.take(message.twist.linear.x, fastest, self._now())
         if kind != NOT_FINITE:
             self._pace.command(_seconds(message), self._time)
-        self._obey(kind)
+        self._count_command(kind)
+        if self._clock_publisher is None:
+            self._step(self._real_time())
+        else:
+            self._on_timer()
 
     def _on_velocities(self, message: Float64MultiArray) -> None:
         assert isinstance(self._commanded, CommandedJoints)
-        self._obey(self._commanded.take(message.data, self._settings.max_speed))
+        if self._clock_publisher is None:
+            # Nothing is published, or the servo would answer that at once, and so on for ever.
+            self._move(self._real_time())
+        self._count_command(self._commanded.take(message.data, self._settings.max_speed))
+        if self._clock_publisher is not None:
+            self._on_timer()
 
     def _on_servo_s_command(self, message: TwistStamped) -> None:
         """Let time wait for the servo's answer to a command; the belt starts with the first."""
@@ -182,15 +191,10 @@ class PlantNode(Node, Generic[P]):
         self._pace.answer(*(now - age for age in ages))
         self._on_timer()
 
-    def _obey(self, kind: str) -> None:
-        """Count a command, and let it take effect at once."""
+    def _count_command(self, kind: str) -> None:
         self._counts[OBEYED] += 1
         if kind != OBEYED:
             self._counts[kind] += 1
-        if self._clock_publisher is None:
-            self._step(self._real_time())
-        else:
-            self._on_timer()
 
     def _on_contact(self, message: PoseStamped) -> None:
         self._pace.contact(_seconds(message))
@@ -226,13 +230,17 @@ class PlantNode(Node, Generic[P]):
         elapsed, self._last_wall = wall - self._last_wall, wall
         return min(elapsed, LONGEST_STEP)
 
+    def _move(self, step: float) -> None:
+        """Move belt, object and finger."""
+        self._commanded.move(step, self._now())
+        self._time += step
+
     def _step(self, step: float) -> None:
         """Move belt, object and finger, and publish where they are."""
-        self._commanded.move(step, self._now())
+        self._move(step)
         self._steps += 1
-        if self._clock_publisher is None:
-            self._time += step
-        else:  # to the nanosecond: a sum would drift away from the timers that follow the clock
+        if self._clock_publisher is not None:
+            # To the nanosecond: a sum would drift away from the timers that follow the clock.
             self._time = self._steps * self._period
         self._publish_clock()
         stamp = self._stamp()

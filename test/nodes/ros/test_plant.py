@@ -9,6 +9,7 @@ from geometry_msgs.msg import PoseStamped, TwistStamped, WrenchStamped
 from rclpy.parameter import Parameter as RosParameter
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64MultiArray
 
 from tactile_push.devices.device import Device
 from tactile_push.devices.stream import SentenceStream
@@ -16,6 +17,7 @@ from tactile_push.interface import (
     CLOCK,
     COMMAND,
     JOINT_STATES,
+    SERVO_COMMANDS,
     TOPICS,
     TRUE_POSE,
     TRUE_STATE,
@@ -120,6 +122,28 @@ def test_without_further_commands_the_finger_stops(bench, plant):
     bench.until(lambda: any(message.position[5] > 0.0 for message in bench.heard[TRUE_STATE]))
     bench.until(lambda: bench.values(TRUE_STATE)['v_x'] == 0.0)
     assert bench.health == (ERROR, 'no command, finger stopped')
+
+
+def test_joint_velocities_move_the_finger_until_others_come(bench, plant):
+    node = plant(commands='joint_velocities', command_timeout=0.05)
+    bench.hear(JointState, TRUE_STATE, JOINT_STATES)
+    velocities = bench.publisher(Float64MultiArray, SERVO_COMMANDS)
+    velocities.publish(Float64MultiArray(data=[0.0, 0.0]))  # of a servo that waits
+    bench.until(lambda: node._counts['commands'])
+    assert bench.health == (OK, 'belt stands, waiting for the first command')
+    velocities.publish(Float64MultiArray(data=[0.0, -0.1]))
+    bench.until(lambda: bench.heard[TRUE_STATE] and bench.values(TRUE_STATE)['belt_travel'] > 1e-3)
+    state = bench.values(TRUE_STATE)
+    # 0.1 rad/s at 8 cm, for at least four times the timeout.
+    assert state['v_x'] == pytest.approx(0.008, rel=0.01)
+    assert state['v_x_commanded'] == pytest.approx(0.008, rel=0.01)
+    assert state['finger_x'] > 1e-3
+    joints = bench.values(JOINT_STATES)
+    assert joints['proximal_joint'] == pytest.approx(math.pi / 2.0)
+    assert joints['distal_joint'] < -math.pi / 2.0 - 0.01
+    assert bench.health == (OK, 'pushing')
+    velocities.publish(Float64MultiArray(data=[1.0]))
+    bench.until(lambda: node._counts['commands of another size'])
 
 
 def test_published_time_grows_by_the_sensors_period(bench, plant):
