@@ -115,6 +115,7 @@ WITHOUT_UNIT = {
     'mu_c_min',
     'mu_c_ripple',
     'mu_s',
+    'port',
     'seed',
     'sensor_dropout',
     'sensor_outlier',
