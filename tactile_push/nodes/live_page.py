@@ -90,7 +90,7 @@ class LivePage(Node):
         )
         self._polled = [one for one in self.subscriptions if one.callback_group is polled]
         self._on_parameters({})
-        ParameterNotes(self, self._on_parameters)
+        ParameterNotes(self, self._on_parameters, again=True)
         self._diagnostics = Diagnostics(self, self._health)
         steady_clock = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(1.0 / RATE, self._on_frame, clock=steady_clock)

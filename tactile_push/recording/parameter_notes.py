@@ -25,11 +25,19 @@ class ParameterNotes:
 
     The asking node leaves itself out, and any node that does not answer. Whenever a node has
     answered, `noted` gets all that is known: parameters by full node name, without its leading
-    slash.
+    slash. With `again` a node that was gone and comes back is asked again.
     """
 
-    def __init__(self, node: Node, noted: Callable[[dict[str, dict[str, Any]]], None]) -> None:
+    def __init__(
+        self,
+        node: Node,
+        noted: Callable[[dict[str, dict[str, Any]]], None],
+        *,
+        again: bool = False,
+    ) -> None:
         self._node = node
+        self._again = again
+        self._answered: set[str] = set()
         self._noted = noted
         self._known: dict[str, dict[str, Any]] = {}
         self._questions: dict[str, _Question] = {}
@@ -42,11 +50,14 @@ class ParameterNotes:
             for name, namespace in self._node.get_node_names_and_namespaces()
             if name in NODES
         } - {self._node.get_fully_qualified_name()}
-        for full_name in there - self._questions.keys() - self._known.keys():
+        if self._again:
+            self._answered &= there
+        for full_name in there - self._questions.keys() - self._answered:
             self._questions[full_name] = _Question(self._node, full_name)
         for full_name, question in list(self._questions.items()):
             if question.answer is not None:
                 self._known[full_name] = question.answer
+                self._answered.add(full_name)
                 self._noted({name.lstrip('/'): values for name, values in self._known.items()})
             if question.answer is not None or full_name not in there:
                 question.close()

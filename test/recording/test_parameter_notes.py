@@ -124,6 +124,8 @@ class Client:
 class AskingNode:
     """Sees one other node, and has its looks made by hand."""
 
+    there = (('sim_plant', '/'),)
+
     def __init__(self, lost_names, lost_values):
         names = SimpleNamespace(result=SimpleNamespace(names=['period']))
         self.lister = Client(names, lost_names)
@@ -142,7 +144,7 @@ class AskingNode:
         return '/bag_recorder'
 
     def get_node_names_and_namespaces(self):
-        return [('sim_plant', '/')]
+        return self.there
 
 
 @pytest.mark.parametrize(('lost_names', 'lost_values'), [(0, 0), (1, 0), (0, 1), (2, 1)])
@@ -158,3 +160,17 @@ def test_answer_that_is_lost_is_asked_for_again(monkeypatch, lost_names, lost_va
     assert noted == [{'sim_plant': {'period': 'a value'}}]
     assert node.lister.calls == lost_names + lost_values + 1
     assert len(node.lister.pending) == len(node.getter.pending) == 1  # nothing adds up
+
+
+@pytest.mark.parametrize(('again', 'expected'), [(False, [0.1]), (True, [0.1, 0.2])])
+def test_a_node_that_comes_back_is_asked_again_if_that_is_wanted(monkeypatch, again, expected):
+    monkeypatch.setattr(parameter_notes, 'parameter_value_to_python', lambda value: value)
+    noted = []
+    node = AskingNode(0, 0)
+    ParameterNotes(node, noted.append, again=again)
+    for value, there in ((0.1, AskingNode.there), (0.1, ()), (0.2, AskingNode.there)):
+        node.getter.answer = SimpleNamespace(values=[value])
+        node.there = there
+        for _ in range(3):
+            node.look()
+    assert [notes['sim_plant']['period'] for notes in noted] == expected
