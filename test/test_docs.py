@@ -14,7 +14,7 @@ import yaml
 import tactile_push.mechanics
 from tactile_push.devices import decode
 from tactile_push.launching import FingerArguments
-from tactile_push.launching.plan import LAUNCH_SECTION
+from tactile_push.launching.files import LAUNCH_SECTION
 from tactile_push.parameters import PARAMETERS, FingerServoParameters
 from tactile_push.parameters.finger_servo import make_servo
 

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The arguments of the launch files, declared like the parameters of nodes."""
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -11,12 +10,18 @@ import yaml
 
 from tactile_push import paper
 from tactile_push.interface import PLANTS, SENSORS, SENTENCE, SIM_PLANT
-from tactile_push.parameters import PushControllerParameters, SimPlantParameters, shared
+from tactile_push.parameters import (
+    FingerServoParameters,
+    PushControllerParameters,
+    SimPlantParameters,
+    shared,
+)
 from tactile_push.parameters.parameter import NodeParameters, Parameter, parameter
 
 ROBOTS = JOINTS, _ = ('finger', 'none')
 OBJECTS = (paper.BLOCK, paper.DISK)
 LAW, PLANT = PushControllerParameters(), SimPlantParameters()
+SERVO = FingerServoParameters()
 
 
 @dataclass(frozen=True)
@@ -91,6 +96,9 @@ class FingerArguments(LaunchArguments):
     robot: str = parameter(JOINTS, '',
         'what moves the tip: finger is the finger of two joints, whose description is published; '
         'none is a machine without joint angles, whose tip does not turn', choices=ROBOTS)
+    servo: bool = parameter(True, '',
+        'let finger_servo move the two joints by their velocities; false if the machine takes '
+        'finger/cmd_vel itself')
     object: str = parameter(paper.BLOCK, '',
         f"what is pushed: {' or '.join(OBJECTS)} of the paper, or a parameter file of one's own")
     namespace: str = parameter('', '', 'namespace of all nodes; a second finger needs one')
@@ -106,9 +114,10 @@ class FingerArguments(LaunchArguments):
     joint_names: list[str] = parameter(shared.JOINT_NAMES, '',
         'the two moving joints of the finger in joint_states from the base to the tip, and a wrist '
         'that holds the tip straight if there is one')
-    joint_min: list[float] = parameter([-math.pi] * 2, 'rad', 'least angle of each of the two')
-    joint_max: list[float] = parameter([math.pi] * 2, 'rad', 'greatest angle of each of the two')
-    joint_speed: list[float] = parameter([1.0] * 2, 'rad/s', 'greatest speed of each of the two')
+    joint_min: list[float] = parameter(SERVO.joint_min, 'rad', 'least angle of each of the two')
+    joint_max: list[float] = parameter(SERVO.joint_max, 'rad', 'greatest angle of each of the two')
+    joint_speed: list[float] = parameter(SERVO.joint_speed, 'rad/s',
+        'greatest speed of each of the two')
     # fmt: on
 
     def __post_init__(self) -> None:

@@ -19,8 +19,10 @@ from tactile_push.interface import (
     COMPRESSED_IMAGE,
     CONTACT_GEOMETRY,
     FINGER_DISK,
+    FINGER_SERVO,
     FORCE_TORQUE,
     IMAGE,
+    JOINT_VELOCITIES,
     PLANTS,
     PUSH_CONTROLLER,
     SENTENCE,
@@ -30,22 +32,16 @@ from tactile_push.interface import (
     WRENCH_SENSOR,
     WRIST_JOINT,
 )
-from tactile_push.launching.arguments import (
-    JOINTS,
-    MACHINE,
-    OBJECTS,
-    DemoArguments,
-    FingerArguments,
-)
+from tactile_push.launching.arguments import JOINTS, DemoArguments, FingerArguments
+from tactile_push.launching.files import launch_values, object_file, own_name, read_file
 from tactile_push.launching.robot import robot_description
 from tactile_push.parameters import PARAMETERS, config_file, shared
-from tactile_push.parameters.ros_file import Sections, matches, read_sections
+from tactile_push.parameters.ros_file import Sections, matches
 from tactile_push.parameters.sensor_kinds import SENSOR_KINDS
 from tactile_push.parameters.slips import meant
 
 OWN_PACKAGE = 'tactile_push'
 STATE_PUBLISHER, RVIZ = 'robot_state_publisher', 'rviz2'
-LAUNCH_SECTION = 'finger_launch'  # of the machine's file, for the launch file and no node
 # tf in the finger's own namespace: two fingers name their frames alike.
 OWN_TF = (('/tf', 'tf'), ('/tf_static', 'tf_static'))
 
@@ -95,7 +91,7 @@ def demo_plan(texts: Mapping[str, str]) -> Plan:
         **{'publish_clock': True, 'use_sim_time': True},
     }
     machine = FingerArguments().machine
-    files = [_read_file(config_file(f'{p.object}.yaml'))]
+    files = [read_file(config_file(f'{p.object}.yaml'))]
     nodes = [p.plant, SENSOR_KINDS[SENTENCE].node, *_LOOP]
     shown = _shown(machine, values, rviz=p.rviz)
     return Plan((*shown, *(_node(node, '', files, values) for node in nodes)), '', simulated=True)
@@ -121,19 +117,23 @@ def finger_plan(texts: Mapping[str, str]) -> Plan:
     """
     given = FingerArguments.read(texts)
     file = Path(given.get('config') or config_file('hardware.yaml'))
-    hardware = _read_file(file)
-    p = FingerArguments.of({**_launch_values(hardware, file), **given})
-    pushed = _object_file(p)
+    hardware = read_file(file)
+    p = FingerArguments.of({**launch_values(hardware, file), **given})
+    pushed = object_file(p)
     # Of a hard tip the hemisphere has the disk's radius; a file may know better.
     tip: Sections = {f'/**/{WRENCH_SENSOR}': {'tip_radius': p.finger_radius}}
-    files = [tip, _read_file(pushed), hardware]
+    files = [tip, read_file(pushed), hardware]
     if p.calibration:
-        files.append(_read_file(Path(p.calibration)))
+        files.append(read_file(Path(p.calibration)))
     kind, values = SENSOR_KINDS[p.sensor], _values(p)
     own = {kind.node: kind.parameters, ACTIVE_SENSING: kind.sensing} if p.sim else {}
-    nodes = [_node(node, p.namespace, files, values, own.get(node)) for node in (kind.node, *_LOOP)]
+    names = [kind.node, *_LOOP]
+    if p.robot == JOINTS and p.servo:
+        names.append(FINGER_SERVO)
+        own[FINGER_SERVO] = {'joint_names': values['joint_names'][:2]}  # a wrist is another's
+    nodes = [_node(node, p.namespace, files, values, own.get(node)) for node in names]
     if p.sim:
-        if not any(_own_name(section) == SIM_PLANT for section in files[1]):
+        if not any(own_name(section) == SIM_PLANT for section in files[1]):
             raise ValueError(f'{pushed}: expected a section of {SIM_PLANT} with the object')
         plant = _plant_values(p, kind.plant, nodes[0])
         nodes.insert(0, _node(SIM_PLANT, p.namespace, files, values, plant))
@@ -163,8 +163,9 @@ def _values(p: FingerArguments) -> dict[str, Any]:
 def _plant_values(p: FingerArguments, kind: Mapping[str, Any], sensor: Program) -> dict[str, Any]:
     """Return what the plant is told so that it is like the machine, with a kind of sensor."""
     turns = p.robot == JOINTS and len(p.joint_names) == 2
+    moved_by = {'commands': JOINT_VELOCITIES} if p.robot == JOINTS and p.servo else {}
     mount = {name: sensor.parameters[name] for name in _MOUNT if name in sensor.parameters}
-    return {'publish_clock': True, 'tip_turns': turns, **kind, **mount}
+    return {'publish_clock': True, 'tip_turns': turns, **moved_by, **kind, **mount}
 
 
 _MOUNT = ('tip_xyz', 'tip_rpy')  # where the tip sits on its force/torque sensor
@@ -237,56 +238,3 @@ def _shown(
 def _time(values: Mapping[str, Any]) -> dict[str, Any]:
     """Return what tells a node which time to use."""
     return {'use_sim_time': True} if values.get('use_sim_time') else {}
-
-
-def _object_file(p: FingerArguments) -> Path:
-    """Return the parameter file of the object."""
-    if p.object in OBJECTS:
-        return config_file(f'{p.object}.yaml')
-    if not p.object.endswith(('.yaml', '.yml')):
-        kinds = ', '.join(OBJECTS)
-        raise ValueError(f'argument object: expected {kinds} or a YAML file, got {p.object!r}')
-    return Path(p.object)
-
-
-def _launch_values(hardware: Sections, file: Path) -> dict[str, Any]:
-    """Return what the machine's file says for the launch file itself."""
-    values: dict[str, Any] = {}
-    for section, entries in hardware.items():
-        if _own_name(section) == LAUNCH_SECTION:
-            values |= entries
-    known = {one.name: one for one in FingerArguments.declared() if one.name != 'config'}
-    for name, value in values.items():
-        try:
-            if name not in known:
-                raise ValueError(f'parameter {name}: expected one of {", ".join(known)}')
-            known[name].check(value)
-        except ValueError as error:
-            raise ValueError(f'{file}: {LAUNCH_SECTION}: {error}') from None
-    return values
-
-
-def _read_file(file: Path) -> Sections:
-    """Read a parameter file; ValueError if a node would not find there what is meant for it."""
-    try:
-        sections = read_sections(file)
-    except OSError as error:
-        raise ValueError(f'{file}: {error.strerror}') from None
-    for section, entries in sections.items():
-        name = _own_name(section)
-        if name == LAUNCH_SECTION:
-            continue
-        if name not in (*PARAMETERS, '*', '**'):
-            raise ValueError(f'{file}: {section}: expected {LAUNCH_SECTION} or a node')
-        for fact in MACHINE:
-            if fact in entries:
-                raise ValueError(
-                    f'{file}: {section}: {fact}: expected below {LAUNCH_SECTION} in the file of '
-                    'the machine, from where all nodes get it'
-                )
-    return sections
-
-
-def _own_name(section: str) -> str:
-    """Return the node's name in a section's, without its namespace."""
-    return section.rpartition('/')[2]

@@ -2,17 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 
 import pytest
-import yaml
 
-from tactile_push.launching import FingerArguments, demo_plan, finger_plan
-from tactile_push.launching.plan import LAUNCH_SECTION
-from tactile_push.parameters import PARAMETERS, config_file
-from tactile_push.parameters.ros_file import read_sections
+from tactile_push.launching import demo_plan, finger_plan
+from tactile_push.parameters import PARAMETERS
 from tactile_push.tactile import PlanarFinger
 
 pytest.importorskip('xacro', reason='pip install xacro')
 
 LOOP = ['contact_geometry', 'push_controller', 'active_sensing']
+JOINTS = ['proximal_joint', 'distal_joint']
 
 
 def names(plan):
@@ -24,22 +22,9 @@ def values(plan, node):
     return program.parameters
 
 
-@pytest.fixture
-def own(tmp_path):
-    """Return a function that writes a parameter file from values by node."""
-
-    def write(name='machine.yaml', **nodes):
-        sections = {f'/**/{node}': {'ros__parameters': given} for node, given in nodes.items()}
-        file = tmp_path / name
-        file.write_text(yaml.safe_dump(sections))
-        return str(file)
-
-    return write
-
-
 def test_machine_runs_no_simulation_and_nodes_that_others_hear():
     plan = finger_plan({})
-    assert names(plan) == ['robot_state_publisher', 'sensor_driver', *LOOP]
+    assert names(plan) == ['robot_state_publisher', 'sensor_driver', *LOOP, 'finger_servo']
     assert not plan.simulated
     for program in plan.programs:
         assert 'use_sim_time' not in program.parameters
@@ -54,12 +39,14 @@ def test_simulation_takes_the_place_of_the_machine_and_of_its_device():
         'sim_plant',
         'sensor_driver',
         *LOOP,
+        'finger_servo',
         'bag_recorder',
     ]
     assert plan.simulated
     plant = values(plan, 'sim_plant')
     assert plant['device'] == values(plan, 'sensor_driver')['device'] != '/dev/ttyUSB0'
     assert plant['publish_clock']
+    assert plant['commands'] == 'joint_velocities'
     for program in plan.programs:
         follows = program.parameters.get('use_sim_time', False)
         assert follows == (program.executable != 'sim_plant'), program.executable
@@ -85,10 +72,10 @@ def test_each_fact_about_the_machine_reaches_every_node_that_has_such_a_paramete
 
 def test_joints_are_those_of_the_machine_or_of_the_plant():
     texts = {'joint_names': '[shoulder, elbow]'}
-    for node in ('contact_geometry', 'push_controller'):
+    for node in ('contact_geometry', 'push_controller', 'finger_servo'):
         assert values(finger_plan(texts), node)['joint_names'] == ['shoulder', 'elbow']
         simulated = values(finger_plan({**texts, 'sim': 'true'}), node)['joint_names']
-        assert simulated == ['proximal_joint', 'distal_joint']
+        assert simulated == JOINTS
     described = values(finger_plan(texts), 'robot_state_publisher')['robot_description']
     assert '<joint name="elbow"' in described
 
@@ -96,9 +83,16 @@ def test_joints_are_those_of_the_machine_or_of_the_plant():
 def test_wrist_of_the_machine_is_one_of_the_simulated_finger_too():
     plan = finger_plan({'joint_names': '[a, b, c]', 'sim': 'true'})
     assert values(plan, 'sim_plant')['tip_turns'] is False
-    assert values(plan, 'push_controller')['joint_names'][2] == 'wrist_joint'
+    assert values(plan, 'push_controller')['joint_names'] == [*JOINTS, 'wrist_joint']
+    assert values(plan, 'finger_servo')['joint_names'] == JOINTS
     described = values(plan, 'robot_state_publisher')['robot_description']
     assert '<joint name="wrist_joint" type="continuous"' in described
+
+
+def test_machine_that_takes_the_command_itself_needs_no_servo():
+    plan = finger_plan({'servo': 'false', 'sim': 'true'})
+    assert names(plan) == ['robot_state_publisher', 'sim_plant', 'sensor_driver', *LOOP]
+    assert 'commands' not in values(plan, 'sim_plant')
 
 
 def test_machine_without_joints_has_no_description_and_a_tip_that_does_not_turn():
@@ -128,7 +122,7 @@ def test_force_torque_sensor_has_the_tip_of_the_machine_and_a_simulated_one_the_
     machine = own(finger_launch={'sensor': 'wrench', 'finger_radius': 0.02})
     tip = own('tip.yaml', wrench_sensor={'tip_xyz': [0.0, 0.001, 0.03]})
     plan = finger_plan({'config': machine, 'calibration': tip})
-    assert names(plan) == ['robot_state_publisher', 'wrench_sensor', *LOOP]
+    assert names(plan) == ['robot_state_publisher', 'wrench_sensor', *LOOP, 'finger_servo']
     reader = values(plan, 'wrench_sensor')
     assert (reader['tip_radius'], reader['tip_xyz']) == (0.02, [0.0, 0.001, 0.03])
     assert 'needs_tare' not in reader
@@ -183,36 +177,6 @@ def test_what_publishes_frames_publishes_them_in_the_namespace_of_the_finger():
         assert dict(program.remappings) == {'/tf': 'tf', '/tf_static': 'tf_static'}
 
 
-@pytest.mark.parametrize(
-    ('nodes', 'expected'),
-    [
-        ({'push_controller': {'kp': -1.0}}, r'^push_controller: parameter kp: expected a number'),
-        (
-            {'push_controller': {'kpp': 1.0}},
-            r'^push_controller: parameter kpp: unknown, did you mean kp\?$',
-        ),
-        ({'push_controler': {'kp': 1.0}}, r'yaml: /\*\*/push_controler: expected finger_launch or'),
-        ({'push_controller': {'belt_speed': 0.1}}, 'belt_speed: expected below finger_launch'),
-        ({'finger_launch': {'belt': 0.1}}, 'finger_launch: parameter belt: expected one of sensor'),
-        ({'finger_launch': {'config': 'x'}}, 'finger_launch: parameter config: expected one of'),
-        ({'finger_launch': {'belt_speed': 5}}, 'finger_launch: parameter belt_speed: expected a n'),
-        ({'finger_launch': {'object': 'x.yaml'}}, '^x.yaml: No such file'),
-        ({'finger_launch': {'object': 'hardware'}}, 'object: expected block, disk or a YAML file'),
-        ({'finger_launch': {'calibration': '/no/file'}}, '^/no/file: No such file'),
-        ({'finger_launch': {'joint_names': ['one']}}, '^joint_names: expected two or three'),
-    ],
-)
-def test_bad_file_is_refused_with_one_line_before_anything_starts(own, nodes, expected):
-    with pytest.raises(ValueError, match=expected) as refused:
-        finger_plan({'config': own(**nodes)})
-    assert '\n' not in str(refused.value)
-
-
-def test_missing_file_of_the_machine_is_refused():
-    with pytest.raises(ValueError, match='^/no/such.yaml: No such file'):
-        finger_plan({'config': '/no/such.yaml'})
-
-
 def test_object_that_the_plant_does_not_know_is_not_simulated(own):
     mine = own('mine.yaml', active_sensing={'disk_radius': 0.03})
     finger_plan({'object': mine})
@@ -235,27 +199,6 @@ def test_demonstration_with_other_physics_and_without_a_display():
     assert names(plan) == ['robot_state_publisher', 'mujoco_plant', 'sensor_driver', *LOOP]
     for node in ('mujoco_plant', 'sensor_driver'):
         assert values(plan, node)['device'] == '/tmp/sensor'
-
-
-HARDWARE = config_file('hardware.yaml')
-
-
-def test_file_of_the_machine_says_every_argument_and_repeats_defaults():
-    sections = {key.removeprefix('/**/'): v for key, v in read_sections(HARDWARE).items()}
-    said = sections.pop(LAUNCH_SECTION)
-    defaults = {p.name: p.default for p in FingerArguments.declared() if p.name != 'config'}
-    assert said == defaults
-    assert list(said) == list(defaults)
-    for node, given in sections.items():
-        declared = {p.name: p.default for p in PARAMETERS[node].declared()}
-        given.pop('device', None)
-        assert given == {name: declared[name] for name in given}, node
-
-
-def test_every_line_of_the_machines_file_is_explained():
-    lines = [line for line in HARDWARE.read_text().splitlines() if line.strip()]
-    silent = [line for line in lines if '#' not in line and 'ros__parameters:' not in line]
-    assert silent == []
 
 
 def test_description_of_the_machine_is_that_of_its_links():
