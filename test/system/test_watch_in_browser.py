@@ -37,9 +37,12 @@ class Fed:
         self.live = Live(history)
         hello = lambda: json.dumps(self.live.hello())  # noqa: E731
         self.server = Server('127.0.0.1', port, *live_page('/left'), hello)
-        self.server.post(
-            'scene', json.dumps({'scene': {'radius': 13.5, 'outline': [], 'mu_c': None}})
-        )
+        self.scene([])
+
+    def scene(self, outline):
+        """Post an object."""
+        scene = {'radius': 1e3 * R, 'outline': outline, 'mu_c': None}
+        self.server.post('scene', json.dumps({'scene': scene}))
 
     def frame(self, theta=THETA, **tick):
         """Post one frame and, if they have changed, the events."""
@@ -172,8 +175,10 @@ def test_page_finds_its_server_again_and_says_so(opened):
     fed = Fed()
     with contextlib.closing(fed.server):
         fed.frame()
+        fed.scene([[-20, -10], [20, -10], [0, 20]])
         page = opened(fed.server.address)
         wait_for(page, text_is('connection', 'live'))
+        wait_for(page, "document.getElementById('outline').getAttribute('d') !== ''")
         wait_for(page, text_is('at-theta', '20.0°'))
         port = int(fed.server.address.rstrip('/').rpartition(':')[2])
     wait_for(page, "document.getElementById('connection').textContent.startsWith('no connection')")
@@ -184,6 +189,7 @@ def test_page_finds_its_server_again_and_says_so(opened):
         wait_for(page, text_is('at-theta', '7.0°'))
         assert page.locator('#connection').text_content() == 'live'
         assert page.locator('canvas').count() == 5  # and not twice as many
+        assert page.locator('#outline').get_attribute('d') == ''  # which nobody knows yet
 
 
 def test_a_long_run_leaves_the_page_as_large_as_a_short_one(fed, opened):

@@ -94,7 +94,7 @@ function prepareView() {
   set('scale-text', { x: x + scale / 2, y: y - 2 * unit });
   element('scale-text').textContent = scale < 10 ? `${scale} mm` : `${scale / 10} cm`;
   set('finger', { r: scene.radius });
-  if (scene.outline.length) set('outline', { d: `M${scene.outline.join('L')}Z` });
+  set('outline', { d: scene.outline.length ? `M${scene.outline.join('L')}Z` : '' });
   element('object').classList.toggle('estimated', !simulated());
   const estimated = frames.estimate_x.some((x) => x !== null);
   const entries = [
