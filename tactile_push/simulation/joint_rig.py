@@ -58,7 +58,7 @@ class JointRig(Rig):
             return
         servo = self.faults.servo
         for arrived, left in self._sent.arriving(tuple(rates), self.time, duration, servo.delay):
-            while True:
+            while left > 0.0:  # of commands that arrive together only the last one counts
                 levers = self.config.finger.levers(self.joints[:2])
                 speeds = [math.hypot(*disk_velocity(levers, r)) for r in (self._rates, arrived)]
                 longest = min(left, self._even_time(max(speeds), duration, belt_running))
@@ -72,8 +72,6 @@ class JointRig(Rig):
                 ]
                 self._rates = tuple(after for _, _, after in followed)
                 self._turn([mean for _, mean, _ in followed], elapsed, belt_running)
-                if elapsed >= left:
-                    break
                 left -= elapsed
         self.v_x = disk_velocity(self.config.finger.levers(self.joints[:2]), self._rates)[0]
         belt_speed = self.faults.belt.speed(self.config.belt_speed, self.time)

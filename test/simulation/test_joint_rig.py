@@ -125,6 +125,16 @@ def test_each_joint_lags_and_waits_as_the_servo_does():
     assert rig.joints[1] - before == pytest.approx(-way, rel=1e-3)
 
 
+def test_a_delay_of_a_whole_step_holds_nothing_up():
+    rig = rig_of(paper_block(), Faults(servo=Servo(delay=0.05)))
+    before = rig.joints[1]
+    for step in range(100):
+        rig.drive((0.0, -0.01 * (step % 2)), 0.05)
+    assert rig.time == pytest.approx(5.0)
+    # Every other step counts, the last one not yet.
+    assert rig.joints[1] - before == pytest.approx(-49 * 0.01 * 0.05, abs=1e-9)
+
+
 def test_the_belt_runs_as_its_fault_has_it():
     belt = Belt(ripple=0.5, frequency=2.0)
     rig = rig_of(paper_block(), Faults(belt=belt))
