@@ -78,7 +78,8 @@ def test_tared_wrenches_become_readings(bench):
     assert (answer.success, answer.message) == (True, '')
     sensor.until((OK, 'no contact'))
     sensor.until((OK, 'contact'), *PRESS)
-    bench.until(lambda: math.isfinite(bench.heard[TACTILE][-1].position[0]))
+    heard = bench.heard[TACTILE]
+    bench.until(lambda: heard and math.isfinite(heard[-1].position[0]))
     message = bench.heard[TACTILE][-1]
     assert tuple(message.name) == TOPICS[TACTILE].field_names
     assert list(message.position[:2]) == pytest.approx([0.5, 0.9])

@@ -94,7 +94,9 @@ def test_what_ended_the_run_is_a_complaint():
 def test_every_fault_of_the_plant_that_goes_away_comes_in_every_round():
     lasting = {'workspace_min', 'workspace_max', 'sensor_detectable_range'}
     shapes = {'belt_ripple_frequency', 'mu_c_ripple_length'}
-    assert set(MOST) == {parameter.name for parameter in FAULTS} - lasting - shapes
+    faults = {parameter.name for parameter in FAULTS}
+    unfelt = {name for name in faults if name.startswith('wrench_')}  # by a sensor of sentences
+    assert set(MOST) == faults - lasting - shapes - unfelt
     stream = episodes(random.Random(1))
     for _ in range(2):
         assert {e.fault for e in itertools.islice(stream, len(MOST))} == set(MOST)

@@ -64,7 +64,8 @@ def test_loop_settles_along_the_trajectory_of_the_experiment_without_clocks_and_
 
 
 def test_block_settles_by_what_a_force_torque_sensor_feels_in_spite_of_its_noise(rig: Rig):
-    rig.start('block', sensor='wrench')
+    # Its time waits for a contact a hundred times a second, so it has to be patient.
+    rig.start('block', sensor='wrench', command_timeout=10.0)
     states = pushed(rig, STEPS)
     # The true angle at each step: noise makes an edge that has settled seem to turn to and fro.
     moments = [seconds(m) for m in rig.truth]
@@ -80,7 +81,7 @@ def test_block_settles_by_what_a_force_torque_sensor_feels_in_spite_of_its_noise
 
 def test_block_settles_by_what_a_camera_in_the_tip_sees_in_spite_of_its_noise(rig: Rig):
     pytest.importorskip('cv2', reason="pip install 'tactile_push[camera]'")
-    rig.start('block', sensor='camera')
+    rig.start('block', sensor='camera', command_timeout=10.0)
     states = pushed(rig, SETTLED_BY + 20)
     settled = settle_step(
         np.array([field(m, 'theta') for m in states]), math.radians(-10.0), math.radians(3.0)
