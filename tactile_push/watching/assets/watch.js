@@ -13,7 +13,8 @@ let report = { states: [] };
 let scene = { radius: 0, outline: [], mu_c: null };
 let seconds = 60; // that the strips show
 let events = [];
-const drawn = { frame: true, events: true, strips: 0 }; // whether the newest is, and when [ms]
+const drawn = { frame: true, events: true, strips: true }; // whether the newest is
+let stripsAt = -Infinity; // when the strips were drawn [ms]
 
 function onHello(hello) {
   seconds = hello.seconds;
@@ -106,16 +107,22 @@ function connect() {
 
 function draw(now) {
   requestAnimationFrame(draw);
-  if (drawn.frame || !frames.time) return;
-  if (kind() !== prepared) prepare();
-  drawn.frame = true;
-  drawFrame(0);
-  readOut(0);
-  if (!drawn.events) listEvents();
-  drawn.events = true;
-  if (now - drawn.strips >= STRIPS_EVERY) {
-    drawn.strips = now;
+  if (!frames.time) return; // before the first greeting
+  if (!drawn.frame) {
+    if (kind() !== prepared) prepare();
+    drawFrame(0);
+    readOut(0);
+    drawn.frame = true;
+    drawn.strips = false;
+  }
+  if (!drawn.events) {
+    listEvents();
+    drawn.events = true;
+  }
+  if (!drawn.strips && now - stripsAt >= STRIPS_EVERY) {
     drawStrips();
+    drawn.strips = true;
+    stripsAt = now;
   }
 }
 
