@@ -107,7 +107,7 @@ function connect() {
 
 function draw(now) {
   requestAnimationFrame(draw);
-  if (!frames.time) return; // before the first greeting
+  if ((frames.time?.[0] ?? null) === null) return; // before the first frame
   if (!drawn.frame) {
     if (kind() !== prepared) prepare();
     drawFrame(0);
