@@ -110,7 +110,7 @@ VERSION_NOTE = 'tactile_push.version'
 
 WRIST_JOINT = 'wrist_joint'  # in `joint_states` of a finger whose wrist holds the tip straight
 
-# Kinds of sensor that the simulated finger may have: one that sends sentences, and one of forces.
+# Kinds of sensor that the simulated finger may have.
 SENSORS = (SENTENCE, FORCE_TORQUE, CAMERA) = ('sentence', 'wrench', 'camera')
 # Points of the finger tip of which one follows the commanded velocity across the belt.
 POINTS = ('centre', 'pole', 'contact')
