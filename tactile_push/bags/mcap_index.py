@@ -82,7 +82,8 @@ def read_index(source: Source) -> Contents | None:
 
 def _check_piece(piece: Piece, source: Source, end: int, thoroughly: bool) -> None:
     """Check that there is a chunk where the index says; look at it if the index has no checksum."""
-    if not len(MAGIC) < piece.offset < piece.offset + piece.length <= end:
+    room = end - piece.offset
+    if not (len(MAGIC) < piece.offset and HEADER.size < piece.length <= room):
         raise DamageError('the index has a chunk outside of the file')
     if thoroughly:
         head = source.read(piece.offset, HEADER.size + 16)

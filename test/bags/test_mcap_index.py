@@ -43,6 +43,17 @@ def test_wrong_index_without_a_checksum_is_made_anew(tmp_path):
     assert 'contradicts' in warnings[0] and 'no message is missing' in warnings[0]
 
 
+@pytest.mark.parametrize('length', [0, 8, 9, 2**64 - 1])
+def test_index_of_a_chunk_that_cannot_be_so_long_is_made_anew(tmp_path, length):
+    whole = mcap_bytes(WRITTEN, enable_crcs=False)
+    index = struct.pack('<QQ', *(struct.unpack_from('<QQ', whole, chunks_of(whole)[3][0] + 9)))
+    place = whole.rindex(index) + 24  # behind two times and the offset
+    data = whole[:place] + struct.pack('<Q', length) + whole[place + 8 :]
+    found, warnings = read(write(tmp_path / 'file.mcap', data))
+    assert found == WRITTEN
+    assert 'outside of the file' in warnings[0] and 'no message is missing' in warnings[0]
+
+
 def test_closed_bag_with_a_wrong_index_is_read_up_to_the_first_damage(tmp_path):
     start, end, _ = CHUNKS[5]
     data = changed(changed(WHOLE, end - 3), len(WHOLE) - 40)
