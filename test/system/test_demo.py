@@ -18,7 +18,7 @@ from support.waiting import wait_for
 from tactile_push.bags import BagReader
 from tactile_push.cli import main
 from tactile_push.demo import STEPS
-from tactile_push.interface import CLOCK, PARAMETER_EVENTS, RECORDED, WRENCH
+from tactile_push.nodes.experiment import AWAITED
 from tactile_push.replay import replay
 
 COMMAND = [sys.executable, '-m', 'tactile_push.cli', 'demo', '--json']
@@ -59,7 +59,7 @@ def test_demo_settles_both_rigs_and_leaves_a_picture_and_bags(tmp_path: Path):
     assert (out / 'history.png').read_bytes().startswith(b'\x89PNG')
     for name in rigs:
         assert (out / name / 'metadata.yaml').exists()
-        assert {*RECORDED} - {CLOCK, PARAMETER_EVENTS, WRENCH} <= topics_as_declared(out / name)
+        assert {*AWAITED} <= topics_as_declared(out / name)
         with BagReader(out / name) as bag:
             (comparison,) = replay(bag, out=tmp_path / f'{name} again')
         assert len(comparison.ticks) > 400
