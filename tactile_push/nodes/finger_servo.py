@@ -36,7 +36,7 @@ from tactile_push.nodes.ros.messages import publish
 from tactile_push.nodes.ros.node_time import NodeTime
 from tactile_push.nodes.ros.parameters import declare, refusing
 from tactile_push.nodes.ros.process import run
-from tactile_push.nodes.ros.qos import EVERYBODY, PUBLISHED, SENSOR_DATA
+from tactile_push.nodes.ros.qos import EVERYBODY, SENSOR_DATA
 from tactile_push.parameters.finger_servo import FingerServoParameters, make_limits, make_servo
 from tactile_push.pipeline import Moment, Servo
 from tactile_push.pipeline.stamps import stamp_of
@@ -75,21 +75,13 @@ class FingerServo(ManagedNode):
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Create the topics."""
         self._outputs = {
-            SERVO_COMMANDS: self.create_lifecycle_publisher(
-                Float64MultiArray, SERVO_COMMANDS, PUBLISHED
-            ),
-            SERVO_STATE: self.create_lifecycle_publisher(JointState, SERVO_STATE, PUBLISHED),
+            SERVO_COMMANDS: self.make_publisher(Float64MultiArray, SERVO_COMMANDS),
+            SERVO_STATE: self.make_publisher(JointState, SERVO_STATE),
         }
-        self._subscriptions_made = (
-            self.create_subscription(TwistStamped, COMMAND, self._on_command, SENSOR_DATA),
-            self.create_subscription(JointState, JOINT_STATES, self._on_joint_states, SENSOR_DATA),
-            *(
-                self.create_subscription(
-                    Float64MultiArray, SERVO_COMMANDS, self._on_velocities, qos
-                )
-                for qos in EVERYBODY
-            ),
-        )
+        self.make_subscription(TwistStamped, COMMAND, self._on_command, SENSOR_DATA)
+        self.make_subscription(JointState, JOINT_STATES, self._on_joint_states, SENSOR_DATA)
+        for qos in EVERYBODY:
+            self.make_subscription(Float64MultiArray, SERVO_COMMANDS, self._on_velocities, qos)
         return TransitionCallbackReturn.SUCCESS
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -100,29 +92,6 @@ class FingerServo(ManagedNode):
         self._timer = self.create_timer(1.0 / self._settings.rate, self._on_timer, clock=steady)
         self._act()
         return result
-
-    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Stop the joints and let go of them."""
-        self._stop()
-        return super().on_deactivate(state)
-
-    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Remove the topics."""
-        for publisher in self._outputs.values():
-            self.destroy_lifecycle_publisher(publisher)
-        for subscription in self._subscriptions_made:
-            self.destroy_subscription(subscription)
-        return TransitionCallbackReturn.SUCCESS
-
-    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Stop the joints for good."""
-        self._stop()
-        return TransitionCallbackReturn.SUCCESS
-
-    def destroy_node(self) -> None:
-        """Stop the joints and end."""
-        self._stop()
-        super().destroy_node()
 
     def _take_parameters(self, settings: FingerServoParameters) -> None:
         self._settings = settings

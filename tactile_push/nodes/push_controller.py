@@ -25,7 +25,7 @@ from tactile_push.nodes.ros.messages import publish
 from tactile_push.nodes.ros.node_time import NodeTime
 from tactile_push.nodes.ros.parameters import declare, refusing
 from tactile_push.nodes.ros.process import run
-from tactile_push.nodes.ros.qos import EVERYBODY, PUBLISHED, SENSOR_DATA
+from tactile_push.nodes.ros.qos import EVERYBODY, SENSOR_DATA
 from tactile_push.parameters.push_controller import (
     PushControllerParameters,
     check_trimmed,
@@ -83,24 +83,14 @@ class PushController(ManagedNode):
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Create the topics."""
         self._outputs = {
-            COMMAND: self.create_lifecycle_publisher(TwistStamped, COMMAND, PUBLISHED),
-            CONTROLLER_STATE: self.create_lifecycle_publisher(
-                JointState, CONTROLLER_STATE, PUBLISHED
-            ),
+            COMMAND: self.make_publisher(TwistStamped, COMMAND),
+            CONTROLLER_STATE: self.make_publisher(JointState, CONTROLLER_STATE),
         }
-        joint_states = (
-            [self.create_subscription(JointState, JOINT_STATES, self._on_joint_states, SENSOR_DATA)]
-            if self._settings.use_joint_states
-            else []
-        )
-        self._subscriptions_made = (
-            *joint_states,
-            self.create_subscription(PoseStamped, CONTACT, self._on_contact, SENSOR_DATA),
-            *(
-                self.create_subscription(TwistStamped, COMMAND, self._on_command, qos)
-                for qos in EVERYBODY
-            ),
-        )
+        if self._settings.use_joint_states:
+            self.make_subscription(JointState, JOINT_STATES, self._on_joint_states, SENSOR_DATA)
+        self.make_subscription(PoseStamped, CONTACT, self._on_contact, SENSOR_DATA)
+        for qos in EVERYBODY:
+            self.make_subscription(TwistStamped, COMMAND, self._on_command, qos)
         return TransitionCallbackReturn.SUCCESS
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -111,27 +101,8 @@ class PushController(ManagedNode):
         self._start_timer()
         return result
 
-    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Stop the law and the finger."""
-        self._stop()
-        return super().on_deactivate(state)
-
-    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Remove the topics."""
-        for publisher in self._outputs.values():
-            self.destroy_lifecycle_publisher(publisher)
-        for subscription in self._subscriptions_made:
-            self.destroy_subscription(subscription)
-        return TransitionCallbackReturn.SUCCESS
-
-    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Stop the law and the finger for good."""
-        self._stop()
-        return TransitionCallbackReturn.SUCCESS
-
     def destroy_node(self) -> None:
         """Stop the finger and end."""
-        self._stop()
         self._jump_handle.unregister()
         super().destroy_node()
 

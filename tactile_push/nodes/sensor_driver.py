@@ -17,7 +17,6 @@ from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Hea
 from tactile_push.nodes.ros.managed import ManagedNode
 from tactile_push.nodes.ros.parameters import declare, refusing
 from tactile_push.nodes.ros.process import run
-from tactile_push.nodes.ros.qos import PUBLISHED
 from tactile_push.parameters import SensorDriverParameters
 from tactile_push.tactile import Reading
 
@@ -50,7 +49,7 @@ class SensorDriver(ManagedNode):
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Create the publisher."""
-        self._publisher = self.create_lifecycle_publisher(JointState, TACTILE, PUBLISHED)
+        self._publisher = self.make_publisher(JointState, TACTILE)
         return TransitionCallbackReturn.SUCCESS
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -59,25 +58,9 @@ class SensorDriver(ManagedNode):
         self._reader.start()
         return result
 
-    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+    def _stop(self) -> None:
         """Let go of the device."""
         self._reader.stop()
-        return super().on_deactivate(state)
-
-    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Remove the publisher."""
-        self.destroy_lifecycle_publisher(self._publisher)
-        return TransitionCallbackReturn.SUCCESS
-
-    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Let go of the device for good."""
-        self._reader.stop()
-        return TransitionCallbackReturn.SUCCESS
-
-    def destroy_node(self) -> None:
-        """Let go of the device and end."""
-        self._reader.stop()
-        super().destroy_node()
 
     def _take_parameters(self, settings: SensorDriverParameters) -> None:
         self._settings = settings
