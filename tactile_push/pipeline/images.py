@@ -19,13 +19,13 @@ class Seen(NamedTuple):
     """What came of one image."""
 
     stamp: Stamp  #: when it was taken [s, ns]
-    contact: ImageContact | None  #: what it tells; None if it was refused
+    told: ImageContact | None  #: what it tells; None if it was refused
     refusal: str  #: why it was refused; empty if it was not
 
     def outputs(self) -> Iterator[Output]:
         """Yield the reading, if there is one, with the image's stamp."""
-        if self.contact is not None:
-            reading = self.contact.reading
+        if self.told is not None:
+            reading = self.told.reading
             values = reading.azimuth, reading.elevation, reading.normal_force
             names = TOPICS[TACTILE].field_names[:3]  # an image tells no tangential force
             yield TACTILE, tactile_fields(self.stamp, dict(zip(names, values, strict=True)))

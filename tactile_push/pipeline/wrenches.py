@@ -16,19 +16,19 @@ class Touched(NamedTuple):
     """What came of one wrench."""
 
     stamp: Stamp  #: when it was measured [s, ns]
-    touch: Touch | None  #: what it tells; None if it was refused, or no reading was due
+    told: Touch | None  #: what it tells; None if it was refused, or no reading was due
     refusal: str  #: why it was refused; empty if it was not
 
     def outputs(self) -> Iterator[Output]:
         """Yield the reading, if there is one, stamped with the mean time of what it is made of."""
-        if self.touch is not None:
-            reading = self.touch.reading
+        if self.told is not None:
+            reading = self.told.reading
             values = (
                 *(reading.azimuth, reading.elevation),
-                *(reading.normal_force, self.touch.tangential_force),
+                *(reading.normal_force, self.told.tangential_force),
             )
             named = dict(zip(TOPICS[TACTILE].field_names, values, strict=True))
-            yield TACTILE, tactile_fields(stamp_before(*self.stamp, self.touch.age), named)
+            yield TACTILE, tactile_fields(stamp_before(*self.stamp, self.told.age), named)
 
 
 class Wrenches:

@@ -10,7 +10,7 @@ OpenCV's filter is shared with the finder of contacts, and none of its equations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -120,6 +120,11 @@ class DomeImages:
         inside = self._on_dome & (along > 0.0)
         square = np.where(inside, 1.0 - (1.0 - along * along) / reach**2, 0.0)
         return np.sqrt(np.maximum(square, 0.0)).astype(np.float32)
+
+
+def pressed(reading: Reading, force: tuple[float, float]) -> Reading:
+    """Return a reading of a skin that a force [N] dents, whatever its direction."""
+    return replace(reading, normal_force=math.hypot(*force))
 
 
 def _turned(ray: Pixels, roll: float, pitch: float, yaw: float) -> Pixels:

@@ -12,12 +12,11 @@ from tactile_push.tactile.hemisphere import (
 from tactile_push.tactile.jumps import JUMP_TOLERANCE, MAX_THETA_RATE
 from tactile_push.tactile.linear_axis import LinearAxis
 from tactile_push.tactile.planar_finger import FingerPose, OutOfReachError, PlanarFinger
-from tactile_push.tactile.reading import NO_CONTACT, Reading
+from tactile_push.tactile.reading import NO_CONTACT, NotUntouchedError, Reading
 from tactile_push.tactile.reading_state import reading_values
 from tactile_push.tactile.wrench import WrenchContact, angle_noise, contact_of_wrench
 from tactile_push.tactile.wrench_reader import (
     WRENCH_REFUSALS,
-    TareRefusedError,
     Touch,
     WrenchReader,
     WrenchSensing,
@@ -33,11 +32,11 @@ __all__ = [
     'ContactFinder',
     'FingerPose',
     'LinearAxis',
+    'NotUntouchedError',
     'OutOfReachError',
     'PlanarFinger',
     'Reading',
     'ReadingRejectedError',
-    'TareRefusedError',
     'Touch',
     'WrenchContact',
     'WrenchReader',

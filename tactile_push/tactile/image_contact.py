@@ -11,7 +11,7 @@ import numpy as np
 
 from tactile_push.tactile.dome_camera import DomeCamera
 from tactile_push.tactile.hemisphere import ReadingRejectedError
-from tactile_push.tactile.reading import NO_CONTACT, Reading
+from tactile_push.tactile.reading import NO_CONTACT, NotUntouchedError, Reading
 from tactile_push.tactile.rim import Rim, RimProfile
 from tactile_push.tactile.sphere import angles_of
 from tactile_push.tactile.touched_region import (
@@ -41,10 +41,6 @@ BURNT = 'saturated'
 NO_REFERENCE = 'no reference'
 CHANGED = 'changed all over'
 BEYOND = 'contact beyond the calibrated part'
-
-
-class ReferenceRefusedError(ValueError):
-    """The images are no reference; the message says why."""
 
 
 @dataclass(frozen=True)
@@ -167,28 +163,28 @@ class ImageContactFinder:
 
         Raises
         ------
-        ReferenceRefusedError
+        NotUntouchedError
             If there is a contact, if there are too few images or they differ, or if they cannot be
             of the tip that was calibrated. The message is the reason; the reference stays.
         """
         if self._touched:
-            raise ReferenceRefusedError(
+            raise NotUntouchedError(
                 'in contact; lift the finger, or clean the node up and configure it anew if '
                 'nothing touches it'
             )
         if len(self._last) < IMAGES_OF_REFERENCE:
-            raise ReferenceRefusedError(
+            raise NotUntouchedError(
                 f'expected {IMAGES_OF_REFERENCE} good images in a row, got {len(self._last)}'
             )
         mean = mean_image(self._last)
         for image in (self._last[0], self._last[-1]):
             region = touched_region(image, mean, self.settings.threshold, self._dome)
             if self._area(region) >= self.settings.least_area:
-                raise ReferenceRefusedError('the image changes; hold the finger still')
+                raise NotUntouchedError('the image changes; hold the finger still')
         if self._rim is not None and self._calibrated_rim is not None:
             difference = self._calibrated_rim.difference(self._rim.profile(mean))
             if difference:
-                raise ReferenceRefusedError(difference)
+                raise NotUntouchedError(difference)
         self._reference, self._brightness = mean, self._mean(mean)
 
     def forget(self) -> None:
@@ -201,7 +197,7 @@ class ImageContactFinder:
             return
         try:
             self.take_reference()
-        except ReferenceRefusedError as reason:
+        except NotUntouchedError as reason:
             self.trouble = str(reason)
             self._last.clear()
 

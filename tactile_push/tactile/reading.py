@@ -6,6 +6,10 @@ import math
 from dataclasses import dataclass
 
 
+class NotUntouchedError(ValueError):
+    """What was measured is not known to be that of an untouched tip; the message says why."""
+
+
 @dataclass(frozen=True)
 class Reading:
     """One reading of the hemispherical sensor (Section V.A)."""

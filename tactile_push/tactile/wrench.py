@@ -25,6 +25,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tactile_push.tactile.reading import Reading
+from tactile_push.tactile.sphere import angles_of
 
 LEAST_FORCE, MOST_FORCE = 1e-9, 1e9  # far below and above what any sensor tells [N]
 
@@ -43,8 +44,8 @@ class WrenchContact:
     @property
     def reading(self) -> Reading:
         """Azimuth and elevation; below 0 for a contact on the rim's far side."""
-        x, y, z = self.normal.tolist()
-        return Reading(math.atan2(y, x), math.asin(min(max(z, -1.0), 1.0)), self.normal_force)
+        azimuth, elevation = map(float, angles_of(self.normal))
+        return Reading(azimuth, elevation, self.normal_force)
 
 
 def axes_of_rpy(rpy: Sequence[float]) -> Vector:

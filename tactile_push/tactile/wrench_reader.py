@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tactile_push.tactile.hemisphere import ReadingRejectedError
-from tactile_push.tactile.reading import NO_CONTACT, Reading
+from tactile_push.tactile.reading import NO_CONTACT, NotUntouchedError, Reading
 from tactile_push.tactile.wrench import LEAST_FORCE, MOST_FORCE, axes_of_rpy, contact_of_wrench
 
 LEAST_OF_A_TARE = 10  # wrenches within its time; a slower sensor is of no use anyway; picked
@@ -33,10 +33,6 @@ WRENCH_REFUSALS = (  # why a wrench is refused
 )
 
 Vector = npt.NDArray[np.float64]
-
-
-class TareRefusedError(ValueError):
-    """The wrenches are no tare; the message says why."""
 
 
 @dataclass(frozen=True)
@@ -203,27 +199,27 @@ class WrenchReader:
 
         Raises
         ------
-        TareRefusedError
+        NotUntouchedError
             If the tip is in contact, or there are too few wrenches, of several frames, or such that
             change too much.
         """
         if self._touches:
-            raise TareRefusedError(
+            raise NotUntouchedError(
                 f'in contact with {self.force:.2f} N; lift the finger, or clean the node up and '
                 'configure it anew if nothing touches it'
             )
         wrenches = np.array([wrench for _, _, wrench in self._recent])
         if len(wrenches) < LEAST_OF_A_TARE:
-            raise TareRefusedError(
+            raise NotUntouchedError(
                 f'expected {LEAST_OF_A_TARE} wrenches within {self.sensing.tare_time:g} s, '
                 f'got {len(wrenches)}'
             )
         frames = {frame for _, frame, _ in self._recent}
         if len(frames) > 1:
-            raise TareRefusedError(f'expected wrenches in one frame, got {sorted(frames)}')
+            raise NotUntouchedError(f'expected wrenches in one frame, got {sorted(frames)}')
         spread = float(np.sqrt(wrenches[:, :3].var(axis=0).sum()))
         if spread > self.sensing.release_force:
-            raise TareRefusedError(
+            raise NotUntouchedError(
                 f'the force varies by {spread:.2f} N, more than release_force; hold the finger '
                 'still, or raise release_force if that is the noise'
             )

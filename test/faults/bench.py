@@ -6,6 +6,7 @@ import os
 import signal
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from rclpy.clock import Clock as NodeClock
 from rclpy.clock_type import ClockType
 from rosgraph_msgs.msg import Clock
 
+from tactile_push.nodes.ros.diagnostics import ERROR
 from tactile_push.testing import NodeProcesses
 
 from .checks import Watch
@@ -152,3 +154,18 @@ def expect(condition: bool, otherwise: str) -> None:
     """Raise `BrokenPromiseError` unless something is true."""
     if not condition:
         raise BrokenPromiseError(otherwise)
+
+
+def spoiled_until_stopped(
+    bench: Bench, sensor: str, words: str, alter: Callable[[Any], Any]
+) -> None:
+    """Spoil what a sensor measures until the finger has stopped and its node said why; mend it."""
+    finger = bench.finger
+    finger.relay.alter = alter
+    bench.stopped(time.monotonic())
+    finger.expect_reason('contact silent')
+    finger.expect_level(sensor, ERROR)
+    said = finger.status(sensor).message
+    expect(words in said, said)
+    finger.relay.mend()
+    finger.wait_until_moving(10.0)

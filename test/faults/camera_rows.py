@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Faults of a camera in the finger tip."""
 
-import time
 from array import array
 from collections.abc import Callable
 
@@ -11,25 +10,15 @@ import numpy.typing as npt
 from sensor_msgs.msg import Image
 
 from tactile_push.interface import CAMERA, CAMERA_SENSOR, IMAGE
-from tactile_push.nodes.ros.diagnostics import ERROR
 
-from .bench import Bench, expect
+from .bench import Bench, spoiled_until_stopped
 from .promise import SILENT, Setup, fault
 
 SEEN = Setup(relay=IMAGE, sensor=CAMERA)
 
 
 def _stops(bench: Bench, words: str, alter: Callable[[Image], Image | None]) -> None:
-    """Spoil images until the finger has stopped and the node said why, and mend them."""
-    finger = bench.finger
-    finger.relay.alter = alter
-    bench.stopped(time.monotonic())
-    finger.expect_reason('contact silent')
-    finger.expect_level(CAMERA_SENSOR, ERROR)
-    said = finger.status(CAMERA_SENSOR).message
-    expect(words in said, said)
-    finger.relay.mend()
-    finger.wait_until_moving(10.0)
+    spoiled_until_stopped(bench, CAMERA_SENSOR, words, alter)
 
 
 def _repainted(

@@ -4,15 +4,13 @@
 
 import itertools
 import math
-import time
 from collections.abc import Callable
 
 from geometry_msgs.msg import WrenchStamped
 
 from tactile_push.interface import FORCE_TORQUE, WRENCH, WRENCH_SENSOR
-from tactile_push.nodes.ros.diagnostics import ERROR
 
-from .bench import Bench, expect
+from .bench import Bench, spoiled_until_stopped
 from .promise import SILENT, Setup, fault
 
 FELT = Setup(relay=WRENCH, sensor=FORCE_TORQUE)
@@ -22,16 +20,7 @@ TOO_MUCH = 0.05  # of torsion [N m]
 def _stops(
     bench: Bench, words: str, alter: Callable[[WrenchStamped], WrenchStamped | None]
 ) -> None:
-    """Spoil wrenches until the finger has stopped and the node said why, and mend them."""
-    finger = bench.finger
-    finger.relay.alter = alter
-    bench.stopped(time.monotonic())
-    finger.expect_reason('contact silent')
-    finger.expect_level(WRENCH_SENSOR, ERROR)
-    said = finger.status(WRENCH_SENSOR).message
-    expect(words in said, said)
-    finger.relay.mend()
-    finger.wait_until_moving(10.0)
+    spoiled_until_stopped(bench, WRENCH_SENSOR, words, alter)
 
 
 @fault('wrench sensor killed', SILENT, setup=FELT)

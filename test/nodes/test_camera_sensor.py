@@ -125,7 +125,7 @@ def test_reference_without_images_or_without_being_active_is_refused(bench):
     camera = Camera(bench, silence_timeout=0.1)
     bench.until(lambda: bench.health == (ERROR, 'no images on image'))
     request, response = Trigger.Request(), Trigger.Response()
-    asked = camera.node._on_take_reference
+    asked = camera.node._on_untouched
     assert asked(request, response).message == 'no images on image'
     assert camera.node.trigger_deactivate() == TransitionCallbackReturn.SUCCESS
     assert bench.health == (OK, 'inactive')

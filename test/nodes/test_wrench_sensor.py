@@ -99,10 +99,10 @@ def test_tare_without_wrenches_or_without_being_active_is_refused(bench):
     sensor = Sensor(bench, silence_timeout=0.1)
     bench.until(lambda: bench.health == (ERROR, 'no wrenches on wrench'))
     request, response = Trigger.Request(), Trigger.Response()
-    assert sensor.node._on_tare(request, response).message == 'no wrenches on wrench'
+    assert sensor.node._on_untouched(request, response).message == 'no wrenches on wrench'
     assert sensor.node.trigger_deactivate() == TransitionCallbackReturn.SUCCESS
     assert bench.health == (OK, 'inactive')
-    assert sensor.node._on_tare(request, response).message == 'the node is not active'
+    assert sensor.node._on_untouched(request, response).message == 'the node is not active'
 
 
 def test_tare_that_drifts_is_a_warning(bench):

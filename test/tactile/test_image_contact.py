@@ -11,12 +11,11 @@ import pytest
 pytest.importorskip('cv2', reason="pip install 'tactile_push[camera]'")
 
 from support.dome import CAMERA, HEIGHT, ON_DOME, SLOPE, WIDTH, DomePainter
-from tactile_push.tactile import ReadingRejectedError
+from tactile_push.tactile import NotUntouchedError, ReadingRejectedError
 from tactile_push.tactile.image_contact import (
     IMAGES_OF_REFERENCE,
     ImageContactFinder,
     ImageContactSettings,
-    ReferenceRefusedError,
 )
 from tactile_push.tactile.rim import Rim
 
@@ -52,7 +51,7 @@ class Tip:
         self.finder.take_reference()
 
     def no_reference(self, **look):
-        with pytest.raises(ReferenceRefusedError) as refused:
+        with pytest.raises(NotUntouchedError) as refused:
             self.refer(**look)
         return str(refused.value)
 
@@ -161,7 +160,7 @@ def test_reference_in_contact_is_refused_and_the_old_one_stays(tip):
 def test_reference_of_too_few_images_is_refused():
     tip = Tip()
     tip.refusal()
-    with pytest.raises(ReferenceRefusedError, match='expected 10 good images in a row, got 1'):
+    with pytest.raises(NotUntouchedError, match='expected 10 good images in a row, got 1'):
         tip.finder.take_reference()
 
 
@@ -171,7 +170,7 @@ def test_bad_image_begins_the_row_anew():
         tip.refusal()
     tip.refusal(black())
     tip.refusal()
-    with pytest.raises(ReferenceRefusedError, match='got 1'):
+    with pytest.raises(NotUntouchedError, match='got 1'):
         tip.finder.take_reference()
 
 
@@ -179,7 +178,7 @@ def test_reference_of_a_tip_that_is_just_touched_is_refused():
     tip = Tip()
     for number in range(IMAGES_OF_REFERENCE):
         tip.refusal(**({'azimuth': 1.0, 'elevation': 1.2} if number > 6 else {}))
-    with pytest.raises(ReferenceRefusedError, match='the image changes'):
+    with pytest.raises(NotUntouchedError, match='the image changes'):
         tip.finder.take_reference()
 
 

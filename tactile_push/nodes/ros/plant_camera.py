@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The camera in the tip of a simulated finger: publishes what it sees."""
 
-import math
-
 from builtin_interfaces.msg import Time
 from rclpy.node import Node
 from sensor_msgs.msg import Image
@@ -12,7 +10,7 @@ from tactile_push.interface import FINGERTIP, IMAGE
 from tactile_push.nodes.ros.qos import PUBLISHED
 from tactile_push.parameters.sim_plant import SimPlantParameters
 from tactile_push.parameters.simulated_camera import dome_view
-from tactile_push.simulation.dome_image import DomeImages
+from tactile_push.simulation.dome_image import DomeImages, pressed
 from tactile_push.tactile import NO_CONTACT, Reading
 
 
@@ -37,10 +35,9 @@ class PlantCamera:
         """Publish what the camera sees of a contact with a force on the object [N]."""
         if not self.touches:
             self._untouched -= self._publisher.get_subscription_count() > 0
-            touch = NO_CONTACT
+            image = self._dome.image(NO_CONTACT)
         else:
-            touch = Reading(reading.azimuth, reading.elevation, math.hypot(*force))
-        image = self._dome.image(touch)
+            image = self._dome.image(pressed(reading, force))
         message = Image(height=image.shape[0], width=image.shape[1], encoding='mono8')
         message.step = image.shape[1]
         message.header.stamp, message.header.frame_id = stamp, FINGERTIP
