@@ -8,8 +8,8 @@ from pathlib import Path
 
 from tactile_push.bags import BagReader
 from tactile_push.bags.fields import TEXT, WHOLE
+from tactile_push.calibration.bag_touches import check_count, only_topic, touches_in_order
 from tactile_push.calibration.camera_images import TouchImages
-from tactile_push.calibration.touch_table import read_table
 from tactile_push.devices.image_bytes import decoded_image, grey_image
 from tactile_push.interface import COMPRESSED_IMAGE_TYPE, IMAGE_TYPE
 from tactile_push.tactile import ReadingRejectedError
@@ -54,7 +54,7 @@ def images_in_bag(bag: BagReader, table: Path, threshold: float) -> TouchImages:
     OSError
         If the table cannot be read.
     """
-    touches = [touch for touch in read_table(table) if touch.touched]
+    touches = touches_in_order(table)
     images = _images(bag)
     first = list(islice(images, IMAGES_OF_REFERENCE))
     if len(first) < IMAGES_OF_REFERENCE:
@@ -70,23 +70,14 @@ def images_in_bag(bag: BagReader, table: Path, threshold: float) -> TouchImages:
         if len(of_touch) >= LEAST_IMAGES:
             found.append(max(of_touch)[2])
         of_touch = []
-    if len(found) != len(touches):
-        raise ValueError(
-            f'{table}: expected {len(found)} touches as in the bag, got {len(touches)}'
-        )
+    check_count(table, touches, len(found))
     names = [f'touch {number}' for number in range(1, len(touches) + 1)]
     return TouchImages(reference, found, touches, names)
 
 
 def _images(bag: BagReader) -> Iterator[Image]:
     """Yield the images of a bag, which are of one size; those that tell nothing are left out."""
-    topics = [topic for topic in bag.topics.values() if topic.type_name in FIELDS]
-    if len(topics) != 1:
-        names = ', '.join(topic.name for topic in topics) or 'none'
-        raise ValueError(f'expected one topic of images, got {names}')
-    (topic,) = topics
-    if trouble := topic.trouble(FIELDS[topic.type_name]):
-        raise ValueError(trouble)
+    topic = only_topic(bag, FIELDS, 'images')
     size = None
     for message in bag.messages([topic.name]):
         content = bag.decode(message)

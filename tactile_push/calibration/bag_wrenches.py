@@ -10,13 +10,12 @@ import numpy as np
 
 from tactile_push.bags import BagReader
 from tactile_push.bags.fields import NUMBER
-from tactile_push.calibration.touch_table import KnownTouch, read_table
+from tactile_push.calibration.bag_touches import check_count, only_topic, touches_in_order
+from tactile_push.calibration.touch_table import KnownTouch
 from tactile_push.interface import WRENCH_TYPE
 from tactile_push.tactile.sphere import Array
+from tactile_push.tactile.wrench_reader import LEAST_OF_A_TARE, WrenchSensing
 
-CONTACT_FORCE, RELEASE_FORCE = 0.2, 0.1  # at which a touch begins and ends [N]
-TARE_TIME = 0.5  # of the untouched tip at the beginning [s]
-LEAST = 10  # wrenches of the untouched tip, and of a touch; picked
 PRESSED = 0.5  # of a touch's greatest force: weaker wrenches of it do not count
 FIELDS = {f'wrench.{part}.{axis}': NUMBER for part in ('force', 'torque') for axis in 'xyz'}
 
@@ -52,41 +51,35 @@ def wrenches_in_bag(bag: BagReader, table: Path) -> TouchWrenches:
     OSError
         If the table cannot be read.
     """
-    touches = [touch for touch in read_table(table) if touch.touched]
+    touches = touches_in_order(table)
     times, wrenches = _wrenches(bag)
-    untouched = wrenches[times - times[0] <= TARE_TIME * 1e9] if len(times) else wrenches
-    if len(untouched) < LEAST:
+    untouched = (
+        wrenches[times - times[0] <= WrenchSensing.tare_time * 1e9] if len(times) else wrenches
+    )
+    if len(untouched) < LEAST_OF_A_TARE:
         raise ValueError(
-            f'expected {LEAST} wrenches of the untouched tip in the first {TARE_TIME:g} s, got '
-            f'{len(untouched)}'
+            f'expected {LEAST_OF_A_TARE} wrenches of the untouched tip in the first '
+            f'{WrenchSensing.tare_time:g} s, got {len(untouched)}'
         )
     wrenches = wrenches - untouched.mean(axis=0)
-    found = [_pressed(part) for part in _parts(wrenches) if len(part) >= LEAST]
-    if len(found) != len(touches):
-        raise ValueError(
-            f'{table}: expected {len(found)} touches as in the bag, got {len(touches)}'
-        )
+    found = [_pressed(part) for part in _parts(wrenches) if len(part) >= LEAST_OF_A_TARE]
+    check_count(table, touches, len(found))
     means = np.reshape([part.mean(axis=0) for part in found], (-1, 6))
     return TouchWrenches(means[:, :3], means[:, 3:], touches)
 
 
 def _wrenches(bag: BagReader) -> tuple[Array, Array]:
     """Return log times [ns] and wrenches, shape (n, 6)."""
-    topics = [topic for topic in bag.topics.values() if topic.type_name == WRENCH_TYPE]
-    if len(topics) != 1:
-        names = ', '.join(topic.name for topic in topics) or 'none'
-        raise ValueError(f'expected one topic of wrenches, got {names}')
-    if trouble := topics[0].trouble(FIELDS):
-        raise ValueError(trouble)
+    topic = only_topic(bag, {WRENCH_TYPE: FIELDS}, 'wrenches')
     times, wrenches = [], []
-    for message in bag.messages([topics[0].name]):
+    for message in bag.messages([topic.name]):
         wrench = bag.decode(message).wrench
         times.append(message.log_time)
         parts = wrench.force, wrench.torque
         wrenches.append([getattr(part, axis) for part in parts for axis in 'xyz'])
     values = np.reshape(np.array(wrenches, float), (-1, 6))
     if not np.isfinite(values).all():
-        raise ValueError(f'{topics[0].name}: a wrench is not finite')
+        raise ValueError(f'{topic.name}: a wrench is not finite')
     return np.array(times, float), values
 
 
@@ -95,9 +88,9 @@ def _parts(wrenches: Array) -> Iterator[Array]:
     force = np.linalg.norm(wrenches[:, :3], axis=1)
     begin = None
     for number, size in enumerate(force):
-        if begin is None and size >= CONTACT_FORCE:
+        if begin is None and size >= WrenchSensing.contact_force:
             begin = number
-        elif begin is not None and size < RELEASE_FORCE:
+        elif begin is not None and size < WrenchSensing.release_force:
             yield wrenches[begin:number]
             begin = None
     if begin is not None:

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from scipy.optimize import least_squares
 
 from tactile_push.calibration.coverage import check_coverage
+from tactile_push.calibration.residuals import rms
 from tactile_push.tactile.dome_camera import DomeCamera
 from tactile_push.tactile.sphere import Array, angles_between
 
@@ -42,7 +43,7 @@ class CameraFit:
     @property
     def rms(self) -> float:
         """Root of the mean square of the errors [rad]."""
-        return float(np.sqrt(np.mean(self.errors**2)))
+        return rms(self.errors)
 
     @property
     def largest(self) -> int:

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle
 
+from tactile_push.calibration.residuals import rms
 from tactile_push.calibration.touch_table import KnownTouch
 from tactile_push.figures.style import (
     BLUE,
@@ -86,7 +87,7 @@ def draw_tip(fit: 'TipFit', touches: Sequence[KnownTouch], file: Path) -> None:
 
 def _draw_errors(axes: Axes, known: Array, found: Array, errors: Array) -> None:
     """Draw on a map of the tip an arrow from each touch towards where it was found."""
-    rms, largest = (math.degrees(e) for e in (np.sqrt(np.mean(errors**2)), errors.max()))
+    size, largest = math.degrees(rms(errors)), math.degrees(errors.max())
     scale = LONGEST / max(largest, 1e-9)
     start = _flat(known)
     way = scale * (_flat(found) - start)
@@ -99,7 +100,7 @@ def _draw_errors(axes: Axes, known: Array, found: Array, errors: Array) -> None:
     axes.set_ylim(-100.0, 100.0)
     axes.set_xlabel('from the pole to the left [°]')
     axes.set_ylabel('from the pole up [°]')
-    axes.set_title(f'errors, {scale:.3g} times: RMS {rms:.2f}°, largest {largest:.2f}°')
+    axes.set_title(f'errors, {scale:.3g} times: RMS {size:.2f}°, largest {largest:.2f}°')
 
 
 def _directions(touches: Sequence[KnownTouch]) -> Array:

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tactile_push.calibration.coverage import check_coverage
+from tactile_push.calibration.residuals import rms
 from tactile_push.tactile import contact_of_wrench
 from tactile_push.tactile.sphere import Array, angles_between
 
@@ -39,7 +40,7 @@ class TipFit:
     @property
     def rms(self) -> float:
         """Root of the mean square of the errors [rad]."""
-        return float(np.sqrt(np.mean(self.errors**2)))
+        return rms(self.errors)
 
     @property
     def largest(self) -> int:

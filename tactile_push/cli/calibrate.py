@@ -195,15 +195,18 @@ def _check_touches(options: argparse.Namespace, source: str) -> None:
 
 
 def _residuals(done: _Calibrated) -> str:
-    rms = math.sqrt(float((done.errors**2).mean()))
+    from tactile_push.calibration.residuals import rms
+
     worst = int(done.errors.argmax())
     largest = f'{math.degrees(done.errors[worst]):.2f}° ({done.names[worst]})'
-    return f'RMS {math.degrees(rms):.2f}°, largest residual {largest}'
+    return f'RMS {math.degrees(rms(done.errors)):.2f}°, largest residual {largest}'
 
 
 def _as_json(done: _Calibrated, files: list[Path]) -> dict[str, Any]:
+    from tactile_push.calibration.residuals import rms
+
     return {
-        'rms': math.sqrt(float((done.errors**2).mean())),
+        'rms': rms(done.errors),
         'largest': float(done.errors.max()),
         'touches': [
             {'name': name, 'azimuth': touch.azimuth, 'elevation': touch.elevation, 'error': error}

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 from tactile_push.devices.image_bytes import decoded_image, grey_image
-from tactile_push.interface import TACTILE, TOPICS
+from tactile_push.interface import TACTILE
 from tactile_push.pipeline.geometry import NEGATIVE_STAMP
 from tactile_push.pipeline.messages import Output, tactile_fields
 from tactile_push.pipeline.stamps import Seconds, Stamp
@@ -25,10 +25,7 @@ class Seen(NamedTuple):
     def outputs(self) -> Iterator[Output]:
         """Yield the reading, if there is one, with the image's stamp."""
         if self.told is not None:
-            reading = self.told.reading
-            values = reading.azimuth, reading.elevation, reading.normal_force
-            names = TOPICS[TACTILE].field_names[:3]  # an image tells no tangential force
-            yield TACTILE, tactile_fields(self.stamp, dict(zip(names, values, strict=True)))
+            yield TACTILE, tactile_fields(self.stamp, self.told.reading)
 
 
 class Images:

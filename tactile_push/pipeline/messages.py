@@ -17,6 +17,7 @@ import numpy.typing as npt
 from tactile_push.interface import FINGER_BASE, FINGER_DISK, TACTILE, TOPICS
 from tactile_push.pipeline.orientation import covariance_in_space, quaternion_of_yaw
 from tactile_push.pipeline.stamps import Stamp
+from tactile_push.tactile.reading import Reading
 
 Fields = dict[str, Any]
 """Fields of a message by name; those of a message within it again as `Fields`."""
@@ -30,15 +31,23 @@ def joint_state_fields(stamp: Stamp, values: Mapping[str, float]) -> Fields:
     return {'header': header, 'name': list(values), 'position': list(values.values())}
 
 
-def tactile_fields(stamp: Stamp, values: Mapping[str, float]) -> Fields:
-    """Return the fields of a message of `tactile` with the values of its fields by name."""
-    arrays = {field.name: field.array for field in TOPICS[TACTILE].fields}
-    fields: Fields = {'header': _header(stamp, ''), 'name': list(values)}
-    for array in ('position', 'effort'):
-        fields[array] = [
-            value if arrays[name] == array else math.nan for name, value in values.items()
-        ]
-    return fields
+def tactile_fields(stamp: Stamp, reading: Reading, tangential_force: float | None = None) -> Fields:
+    """Return the fields of a message of `tactile`, with the tangential force [N] if it is given."""
+    more = [] if tangential_force is None else [tangential_force]
+    values = [reading.azimuth, reading.elevation, reading.normal_force, *more]
+    fields = TOPICS[TACTILE].fields[: len(values)]
+
+    def array(name: str) -> list[float]:
+        """Return an array of the message, NaN for fields that stand in the other one."""
+        together = zip(fields, values, strict=True)
+        return [value if field.array == name else math.nan for field, value in together]
+
+    return {
+        'header': _header(stamp, ''),
+        'name': [field.name for field in fields],
+        'position': array('position'),
+        'effort': array('effort'),
+    }
 
 
 def wrench_fields(stamp: Stamp, frame: str, wrench: Sequence[float]) -> Fields:

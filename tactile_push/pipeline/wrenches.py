@@ -5,7 +5,7 @@
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from tactile_push.interface import TACTILE, TOPICS
+from tactile_push.interface import TACTILE
 from tactile_push.pipeline.geometry import NEGATIVE_STAMP
 from tactile_push.pipeline.messages import Output, tactile_fields
 from tactile_push.pipeline.stamps import Seconds, Stamp, stamp_before
@@ -22,13 +22,9 @@ class Touched(NamedTuple):
     def outputs(self) -> Iterator[Output]:
         """Yield the reading, if there is one, stamped with the mean time of what it is made of."""
         if self.told is not None:
-            reading = self.told.reading
-            values = (
-                *(reading.azimuth, reading.elevation),
-                *(reading.normal_force, self.told.tangential_force),
-            )
-            named = dict(zip(TOPICS[TACTILE].field_names, values, strict=True))
-            yield TACTILE, tactile_fields(stamp_before(*self.stamp, self.told.age), named)
+            told = self.told
+            stamp = stamp_before(*self.stamp, told.age)
+            yield TACTILE, tactile_fields(stamp, told.reading, told.tangential_force)
 
 
 class Wrenches:

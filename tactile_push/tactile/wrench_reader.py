@@ -81,6 +81,11 @@ class WrenchSensing:
             )
 
     @cached_property
+    def ranges(self) -> Vector:
+        """Sizes from which on the components of force and moment are saturated, shape (6,)."""
+        return np.minimum([self.force_range] * 3 + [self.moment_range] * 3, MOST_FORCE)
+
+    @cached_property
     def axes(self) -> Vector:
         """The tip's axes in the sensor's frame, the columns of shape (3, 3)."""
         return axes_of_rpy(self.rpy)
@@ -233,8 +238,7 @@ class WrenchReader:
             raise ReadingRejectedError(NOT_FINITE)
         if self._frame is not None and frame != self._frame:
             raise ReadingRejectedError(ANOTHER_FRAME)
-        ranges = [self.sensing.force_range] * 3 + [self.sensing.moment_range] * 3
-        if (np.abs(wrench) >= np.minimum(ranges, MOST_FORCE)).any():
+        if (np.abs(wrench) >= self.sensing.ranges).any():
             raise ReadingRejectedError(SATURATED)
         if time < self._time - self.sensing.max_gap:
             self.restart()
