@@ -5,6 +5,7 @@
 from collections.abc import Iterator
 from itertools import chain, islice
 from pathlib import Path
+from typing import Any
 
 from tactile_push.bags import BagReader
 from tactile_push.bags.fields import TEXT, WHOLE
@@ -75,6 +76,30 @@ def images_in_bag(bag: BagReader, table: Path, threshold: float) -> TouchImages:
     return TouchImages(reference, found, touches, names)
 
 
+def image_of(type_name: str, content: Any) -> Image:
+    """Return the grey levels of a message.
+
+    Parameters
+    ----------
+    type_name, content : str, object
+        Type and fields of the message, one of `FIELDS`.
+
+    Returns
+    -------
+    ndarray of uint8, shape (height, width)
+        The levels.
+
+    Raises
+    ------
+    ReadingRejectedError
+        If the message is no image.
+    """
+    if type_name == COMPRESSED_IMAGE_TYPE:
+        return decoded_image(content.data)
+    shape = content.height, content.width, content.step
+    return grey_image(content.encoding, *shape, content.data)
+
+
 def _images(bag: BagReader) -> Iterator[Image]:
     """Yield the images of a bag, which are of one size; those that tell nothing are left out."""
     topic = only_topic(bag, FIELDS, 'images')
@@ -82,11 +107,7 @@ def _images(bag: BagReader) -> Iterator[Image]:
     for message in bag.messages([topic.name]):
         content = bag.decode(message)
         try:
-            if topic.type_name == IMAGE_TYPE:
-                shape = content.height, content.width, content.step
-                image = grey_image(content.encoding, *shape, content.data)
-            else:
-                image = decoded_image(content.data)
+            image = image_of(topic.type_name, content)
         except ReadingRejectedError as reason:
             raise ValueError(f'{topic.name}: {reason}') from None
         size = image.shape if size is None else size

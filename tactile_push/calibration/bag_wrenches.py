@@ -5,6 +5,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -68,15 +69,30 @@ def wrenches_in_bag(bag: BagReader, table: Path) -> TouchWrenches:
     return TouchWrenches(means[:, :3], means[:, 3:], touches)
 
 
+def wrench_of(content: Any) -> list[float]:
+    """Return the numbers of a message.
+
+    Parameters
+    ----------
+    content : object
+        A geometry_msgs/WrenchStamped.
+
+    Returns
+    -------
+    list of float
+        Force and moment in the sensor's axes, three each [N, N m].
+    """
+    parts = content.wrench.force, content.wrench.torque
+    return [getattr(part, axis) for part in parts for axis in 'xyz']
+
+
 def _wrenches(bag: BagReader) -> tuple[Array, Array]:
     """Return log times [ns] and wrenches, shape (n, 6)."""
     topic = only_topic(bag, {WRENCH_TYPE: FIELDS}, 'wrenches')
     times, wrenches = [], []
     for message in bag.messages([topic.name]):
-        wrench = bag.decode(message).wrench
         times.append(message.log_time)
-        parts = wrench.force, wrench.torque
-        wrenches.append([getattr(part, axis) for part in parts for axis in 'xyz'])
+        wrenches.append(wrench_of(bag.decode(message)))
     values = np.reshape(np.array(wrenches, float), (-1, 6))
     if not np.isfinite(values).all():
         raise ValueError(f'{topic.name}: a wrench is not finite')

@@ -5,12 +5,10 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from tactile_push.calibration.touch_table import FILE, KnownTouch, read_table
+from tactile_push.calibration.touch_table import FILE, TABLE, KnownTouch, read_table
 from tactile_push.devices.image_bytes import decoded_image
 from tactile_push.tactile import ReadingRejectedError
 from tactile_push.tactile.touched_region import Image, Reference, mean_image
-
-TABLE = 'touches.csv'  # in the folder of the images
 
 
 @dataclass(frozen=True)

@@ -77,3 +77,28 @@ def suggested_touches() -> list[tuple[float, float]]:
         for elevation, count in SUGGESTED.items()
         for number in range(1, count + 1)
     ]
+
+
+def in_words(azimuth: float, elevation: float) -> str:
+    """Describe a place of the tip for people.
+
+    Parameters
+    ----------
+    azimuth, elevation : float
+        The place [rad].
+
+    Returns
+    -------
+    str
+        Such as ``'left and up, azimuth 45°, elevation 62°'``, as seen along the pole.
+    """
+    degrees = math.degrees(azimuth)
+    numbers = f'azimuth {degrees:.0f}°, elevation {math.degrees(elevation):.0f}°'
+    if math.degrees(elevation) >= POLE[0]:
+        return f'pole, {numbers}'
+    near = [
+        name
+        for name, middle in QUARTERS.items()
+        if abs(math.remainder(degrees - middle, 360.0)) < 67.5
+    ]
+    return f'{" and ".join(near)}, {numbers}'

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from tactile_push.small_files import read_small_file
 
+TABLE = 'touches.csv'  # its name beside images or a bag
 AZIMUTH, ELEVATION = 'azimuth_deg', 'elevation_deg'
 FORCE, FILE = 'normal_force', 'file'
 MOST_LETTERS = 80  # of a table's first line in a message

@@ -37,16 +37,24 @@ def add(commands: Commands) -> None:
     option(
         'source',
         type=Path,
+        nargs='?',
         metavar='FOLDER|BAG',
         help='folder of images with a table touches.csv, or a bag of images or wrenches: first of '
-        'the untouched tip, then of one touch after the other',
+        'the untouched tip, then of one touch after the other (default: ask on the terminal for '
+        'one touch after the other, and keep them in the bag touches_ and the date)',
+    )
+    option(
+        '--topic',
+        metavar='NAME',
+        help='topic on which the sensor publishes while touches are asked for (default: image or '
+        'wrench)',
     )
     option(
         '--touches',
         type=Path,
         metavar='FILE',
         help='table of the touches in a bag, in their order: CSV with the columns azimuth_deg, '
-        'elevation_deg and perhaps normal_force',
+        'elevation_deg and perhaps normal_force (default: touches.csv in the folder of the bag)',
     )
     option(
         '--threshold',
@@ -104,6 +112,12 @@ def _calibrate(options: argparse.Namespace) -> int:
     from tactile_push.calibration.parameter_file import parameter_file
     from tactile_push.cli.output import naming
 
+    if options.source is None:
+        from tactile_push.cli.ask_touches import ask_touches
+
+        options.source = ask_touches(options.sensor, options.topic, options.threshold)
+    elif options.topic is not None:
+        raise Refused('--topic: expected no FOLDER|BAG beside it')
     done = (_camera if options.sensor == CAMERA else _wrench)(options)
     out = options.out or Path(f'{done.node}.yaml')
     plot = options.plot or out.with_suffix('.png')
@@ -141,18 +155,20 @@ def _camera(options: argparse.Namespace) -> _Calibrated:
 
 def _images(options: argparse.Namespace) -> 'TouchImages':
     from tactile_push.calibration.bag_images import images_in_bag
-    from tactile_push.calibration.camera_images import TABLE, images_in_folder
+    from tactile_push.calibration.camera_images import images_in_folder
+    from tactile_push.calibration.touch_table import TABLE
     from tactile_push.cli.output import naming, opened, warner
 
-    if (options.source / TABLE).exists() and options.touches is None:
-        with naming(options.source):
+    folder = options.source
+    if options.touches is None and (folder / TABLE).exists() and not any(folder.glob('*.mcap')):
+        with naming(folder):
             try:
-                return images_in_folder(options.source)
+                return images_in_folder(folder)
             except ValueError as error:
                 raise Refused(error) from None
-    _check_touches(options, f'a folder with {TABLE}, or a bag')
-    with opened(options.source, warner('calibrate')) as bag, naming(options.touches, '--touches'):
-        return images_in_bag(bag, options.touches, options.threshold)
+    table = _table(options, f'a folder with {TABLE}, or a bag')
+    with opened(folder, warner('calibrate')) as bag, naming(table, '--touches'):
+        return images_in_bag(bag, table, options.threshold)
 
 
 def _wrench(options: argparse.Namespace) -> _Calibrated:
@@ -163,9 +179,9 @@ def _wrench(options: argparse.Namespace) -> _Calibrated:
     from tactile_push.tactile import WrenchSensing
     from tactile_push.tactile.sphere import directions_of
 
-    _check_touches(options, 'a bag')
-    with opened(options.source, warner('calibrate')) as bag, naming(options.touches, '--touches'):
-        found = wrenches_in_bag(bag, options.touches)
+    table = _table(options, 'a bag')
+    with opened(options.source, warner('calibrate')) as bag, naming(table, '--touches'):
+        found = wrenches_in_bag(bag, table)
     rpy = tuple(math.radians(angle) for angle in options.tip_rpy_deg)
     axes = WrenchSensing(1.0, (0.0, 0.0, 0.0), rpy).axes
     known = directions_of(
@@ -189,9 +205,14 @@ def _wrench(options: argparse.Namespace) -> _Calibrated:
     )
 
 
-def _check_touches(options: argparse.Namespace, source: str) -> None:
-    if options.touches is None:
+def _table(options: argparse.Namespace, source: str) -> Path:
+    """Return the table of the touches in a bag."""
+    from tactile_push.calibration.touch_table import TABLE
+
+    table: Path = options.touches or options.source / TABLE
+    if options.touches is None and not table.exists():
         raise Refused(f'{options.source}: expected {source} and --touches')
+    return table
 
 
 def _residuals(done: _Calibrated) -> str:

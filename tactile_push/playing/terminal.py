@@ -40,6 +40,11 @@ class Terminal:
         """Whether there is a terminal at all."""
         return os.isatty(STDIN) or os.isatty(STDERR)
 
+    @property
+    def answers(self) -> bool:
+        """Whether somebody can see what is shown and press keys."""
+        return os.isatty(STDIN) and os.isatty(STDERR)
+
     def read_keys(self) -> list[str]:
         """Return the characters and whole escape sequences typed since the last call."""
         if not _has_us(STDIN):
@@ -55,6 +60,12 @@ class Terminal:
         if line != self._shown and _has_us(STDERR):
             self._write(f'\r{line}\x1b[K')
             self._shown = line
+
+    def say(self, line: str) -> None:
+        """Leave a line above the one that is shown."""
+        if _has_us(STDERR):
+            self._write(f'\r{line}\x1b[K\n')
+            self._shown = ''
 
     def close(self) -> None:
         """Leave the terminal as it was found; further calls do nothing."""

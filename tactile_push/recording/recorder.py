@@ -53,14 +53,14 @@ class _TakenFrom(CallbackGroup):
 
 
 @dataclass(frozen=True, slots=True)
-class _Taken:
-    """A message and the middleware's stamps on it [ns]."""
+class Taken:
+    """A message and the middleware's stamps on it."""
 
-    topic: str
-    data: bytes
-    received: int
-    sent: int
-    latched: bool
+    topic: str  #: on which it came
+    data: bytes  #: as it came
+    received: int  #: when it came [ns]
+    sent: int  #: when it was published [ns]
+    latched: bool  #: whether it may be older than the subscription
 
 
 class Recorder:
@@ -218,11 +218,11 @@ class Recorder:
             message
             for topic, subscription in self._subscriptions.items()
             if not (waiting and _is_latched(subscription))
-            for message in _take_all(topic, subscription)
+            for message in take_all(topic, subscription)
             if min(message.sent, message.received) <= end
         ]
         if self._simulated is not None:
-            for tick in _take_all(CLOCK, self._clock_subscription):
+            for tick in take_all(CLOCK, self._clock_subscription):
                 self._simulated.tick(tick.received, _clock_time(tick.data))
         for message in sorted(taken, key=lambda message: message.received):
             log_time = self._log_time(message)
@@ -230,7 +230,7 @@ class Recorder:
                 self._writer.write(message.topic, message.data, log_time, message.sent)
                 self.counts[message.topic] += 1
 
-    def _log_time(self, message: _Taken) -> int | None:
+    def _log_time(self, message: Taken) -> int | None:
         if self._simulated is None:
             return message.received
         if message.topic == CLOCK and (tick := _clock_time(message.data)):
@@ -238,8 +238,21 @@ class Recorder:
         return self._simulated.at(message.received, latched=message.latched)
 
 
-def _take_all(topic: str, subscription: Subscription) -> Iterator[_Taken]:
-    """Take what waits in a subscription, but no more than a full queue."""
+def take_all(topic: str, subscription: Subscription) -> Iterator[Taken]:
+    """Take what waits in a raw subscription, but no more than a full queue.
+
+    Parameters
+    ----------
+    topic : str
+        Name of its topic.
+    subscription : rclpy.subscription.Subscription
+        The subscription, from which no executor takes.
+
+    Yields
+    ------
+    Taken
+        Messages in their order.
+    """
     latched = _is_latched(subscription)
     handle = subscription.handle
     with handle:
@@ -249,7 +262,7 @@ def _take_all(topic: str, subscription: Subscription) -> Iterator[_Taken]:
                 return
             data, stamps = taken
             received, sent = stamps['received_timestamp'], stamps['source_timestamp']
-            yield _Taken(topic, data, received, sent, latched)
+            yield Taken(topic, data, received, sent, latched)
 
 
 def _clock_time(data: bytes) -> int:

@@ -8,6 +8,7 @@ import pytest
 
 from tactile_push.calibration.coverage import (
     check_coverage,
+    in_words,
     missing_regions,
     suggested_touches,
 )
@@ -60,3 +61,18 @@ def test_suggested_touches_cover_the_tip():
     azimuth, elevation = np.array(suggested_touches()).T
     check_coverage(directions_of(azimuth, elevation))
     assert (abs(azimuth) <= math.pi).all()
+
+
+@pytest.mark.parametrize(
+    ('degrees', 'words'),
+    [
+        ((0.0, 90.0), 'pole, azimuth 0°, elevation 90°'),
+        ((0.0, 38.0), 'left, azimuth 0°, elevation 38°'),
+        ((180.0, 12.0), 'right, azimuth 180°, elevation 12°'),
+        ((-180.0, 12.0), 'right, azimuth -180°, elevation 12°'),
+        ((45.0, 62.0), 'left and up, azimuth 45°, elevation 62°'),
+        ((-135.0, 62.0), 'right and down, azimuth -135°, elevation 62°'),
+    ],
+)
+def test_places_have_words_as_seen_along_the_pole(degrees, words):
+    assert in_words(*map(math.radians, degrees)) == words

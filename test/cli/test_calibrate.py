@@ -90,6 +90,7 @@ def test_touches_that_do_not_cover_the_tip_fail_and_nothing_is_written(command, 
     ('words', 'said'),
     [
         (['nowhere'], 'nowhere: expected a folder with touches.csv, or a bag and --touches'),
+        (['nowhere', '--topic', 'image'], '--topic: expected no FOLDER|BAG beside it'),
         (['nowhere', '--touches', 'touches.csv'], 'nowhere: '),
         (['{folder}', '--threshold', '0'], 'expected 1 to 255, got 0'),
         (['{folder}', '-o', '{folder}/no/camera.yaml'], '{folder}/no'),
@@ -142,6 +143,13 @@ def test_wrenches_become_a_parameter_file_for_their_node(command, pressed, out, 
     assert p.tip_radius == pytest.approx(RADIUS, abs=1e-6)
     assert not p.reaction
     assert drawn == [out.with_suffix('.png')]
+
+
+def test_table_beside_a_bag_is_taken_without_being_named(command, pressed, out):
+    bag, table = pressed
+    table.rename(bag / 'touches.csv')
+    status, _, err = command('calibrate', 'wrench', bag, '-o', out)
+    assert (status, err) == (0, '')
 
 
 def test_wrenches_of_another_orientation_fail(command, pressed, out):

@@ -17,7 +17,7 @@ import pytest
 PATIENCE = 60.0  # [s]
 ECHO_AND_LINES = termios.ECHO | termios.ICANON
 
-# Prints what it is told, and the keys as they come; ends on 'q' or fails on 'x'.
+# Prints what it is told, and the keys as they come; says a line on 'p', ends on 'q', fails on 'x'.
 PROGRAM = """
 import signal, sys, time
 from tactile_push.playing.terminal import Terminal
@@ -33,6 +33,8 @@ while True:
     terminal.show('a line')
     for key in terminal.read_keys():
         print(repr(key), flush=True)
+        if key == 'p':
+            terminal.say('a saying')
         if key == 'q':
             sys.exit(0)
         if key == 'x':
@@ -188,6 +190,12 @@ def test_job_that_was_stopped_otherwise_takes_the_terminal_again(shell):
     shell.type('q')
     shell.wait_for('ended with 0')
     assert shell.flags() == shell.before
+
+
+def test_line_that_is_said_stays_above_the_one_that_is_shown(shell):
+    shell.wait_for('a line')
+    shell.type('p')
+    shell.wait_for('\ra saying\x1b[K\r\n\ra line\x1b[K')
 
 
 def test_job_in_the_background_neither_reads_nor_sets_nor_writes(start):

@@ -179,7 +179,7 @@ def test_recording_ends_for_all_topics_at_the_same_time(graph, writer, monkeypat
     contact = graph.publisher(PoseStamped, 'contact')
     tactile = graph.publisher(JointState, 'tactile')
     graph.spin_until(matched(contact, tactile))
-    take_all = recording._take_all
+    take_all = recording.take_all
 
     def take_slowly(topic, subscription):
         yield from take_all(topic, subscription)
@@ -187,7 +187,7 @@ def test_recording_ends_for_all_topics_at_the_same_time(graph, writer, monkeypat
             publisher.publish(message)
             assert publisher.wait_for_all_acked(Duration(seconds=30))
 
-    monkeypatch.setattr(recording, '_take_all', take_slowly)
+    monkeypatch.setattr(recording, 'take_all', take_slowly)
     recorder.stop()
     assert recorder.counts == {graph.name + topic: 0 for topic in ('contact', 'tactile')}
 

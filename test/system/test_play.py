@@ -2,14 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bags played to real nodes, by the node and by the command."""
 
-import os
-import pty
-import select
 import signal
 import subprocess
 import sys
-import termios
-import time
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +17,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Int64, String
 from std_srvs.srv import SetBool, Trigger
 
+from support.on_terminal import OnTerminal
 from tactile_push.bags import BagWriter
 from tactile_push.bags.reader import BagReader
 from tactile_push.control import PUSHING, STATES
@@ -295,45 +291,22 @@ def test_command_on_a_terminal_pauses_steps_and_leaves_the_terminal_as_it_was(
     heard = observer.hear(Int64, '/left/number')
     bag = write_numbers(tmp_path / 'bag', [0, 60_000, 120_000])
     options = ['--start-paused', '--remap', 'number:=/left/number']
-    pid, terminal = pty.fork()
-    if pid == 0:
-        command = [sys.executable, '-m', 'tactile_push.cli', 'play', str(bag), *options]
-        os.execve(sys.executable, command, nodes.environment)
-    said = ''
-
-    def says(words: str) -> bool:
-        nonlocal said
-        while select.select([terminal], [], [], 0.0)[0]:
-            said += os.read(terminal, 4096).decode()
-        return words in said
-
-    try:
-        before = termios.tcgetattr(terminal)
-        observer.wait_for(lambda: says('waiting for subscribers, 0.0 s of 120.0 s'), 'a line')
-        observer.wait_for(lambda: says('paused, 0.0 s of 120.0 s'), 'the pause')
-        assert termios.tcgetattr(terminal) != before
-        os.write(terminal, b's')
+    with OnTerminal(['play', str(bag), *options], nodes.environment) as play:
+        observer.wait_for(lambda: play.says('waiting for subscribers, 0.0 s of 120.0 s'), 'a line')
+        observer.wait_for(lambda: play.says('paused, 0.0 s of 120.0 s'), 'the pause')
+        assert play.attributes() != play.before
+        play.type('s')
         observer.wait_for(lambda: len(heard) == 1, 'a step')
-        os.write(terminal, b'\x1b[C')  # right arrow
+        play.type('\x1b[C')  # right arrow
         observer.wait_for(lambda: len(heard) == 2, 'another step')
-        observer.wait_for(lambda: says('paused, 60.0 s'), 'the new place')
-        os.write(terminal, b' ')
-        observer.wait_for(lambda: says('playing, 60.'), 'going on')
-        os.write(terminal, b'\x03')  # Ctrl-C
-        deadline = time.monotonic() + PATIENCE
-        while (ended := os.waitpid(pid, os.WNOHANG))[0] == 0:
-            assert time.monotonic() < deadline
-            says('')
-            time.sleep(0.01)
-        pid = 0
-        assert os.waitstatus_to_exitcode(ended[1]) == 0
-        assert termios.tcgetattr(terminal) == before
-        assert 'Traceback' not in said
-    finally:
-        if pid:
-            os.kill(pid, signal.SIGKILL)
-            os.waitpid(pid, 0)
-        os.close(terminal)
+        observer.wait_for(lambda: play.says('paused, 60.0 s'), 'the new place')
+        play.type(' ')
+        observer.wait_for(lambda: play.says('playing, 60.'), 'going on')
+        play.type('\x03')  # Ctrl-C
+        observer.wait_for(play.ended, 'the end')
+        assert play.status == 0
+        assert play.attributes() == play.before
+        assert 'Traceback' not in play.said
 
 
 def test_command_plays_what_it_is_told_and_ends(
