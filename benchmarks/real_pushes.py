@@ -9,11 +9,11 @@ DIR holds JSON files of pushes: `outline` as `tactile_push simulate --object` ta
 [x, y in m, yaw in rad] in one fixed frame. `published` and `object_did_not_move_baseline`, if they
 are there, are shown beside the errors.
 
-The object slides on the exact limit surface of a pressure that goes as a power of the distance from
-the centroid: one number, c, from all load in the middle to all load on the rim. The other number is
-mu_c. Both are fitted on one half of a file's pushes, every second one, and tried on the other half,
-and the other way round: every push is predicted by numbers that do not know it. `nominal` has
-nothing fitted: uniform pressure and mu_c = 0.25.
+The object slides on the exact limit surface of a load between the centroid and the corners: one
+number says how far it is spread (`Support.spread`), and so its c. The other number is mu_c. Both
+are fitted on one half of a file's pushes, every second one, and tried on the other half, and the
+other way round: every push is predicted by numbers that do not know it. `nominal` has nothing
+fitted: uniform pressure and mu_c = 0.25.
 
 A file may have the `support` on which the object rested, `points` [m] and `loads`. A further
 prediction then has these loads and fits mu_c alone, and one more fits mu_c and the tilt of a push
@@ -51,11 +51,12 @@ from tactile_push.mechanics import (
     clearance,
     tangent_angle,
 )
+from tactile_push.mechanics.spread import largest_spread
 from tactile_push.simulation import read_object
 
 POINTS = 200  # that stand for the support
 NOMINAL_MU_C = 0.25
-SHARES = np.arange(0.30, 0.951, 0.1)  # c as a share of what all load on the rim would give
+SPREADS = np.arange(0.6, 3.01, 0.4)  # from close to the centroid to the corners
 FRICTIONS = np.arange(0.05, 0.451, 0.1)
 PLACES = {'tip_start': 2, 'tip_end': 2, 'object_start': 3, 'object_end': 3}
 KNOWN_FRICTIONS = np.arange(0.3, 0.601, 0.05)  # of pushes on a known support
@@ -194,11 +195,14 @@ def fit(pushes: Pushes, progress: Progress) -> tuple[Errors, list[dict[str, floa
     length = Support.uniform(pushes.outline, POINTS).c  # weighs angles against positions
 
     @cache
-    def errors(share: float, mu_c: float) -> Errors:
-        return predict(pushes, _radial(pushes.outline, share), mu_c)
+    def errors(spread: float, mu_c: float) -> Errors:
+        return predict(pushes, Support.spread(pushes.outline, spread, POINTS), mu_c)
+
+    most = largest_spread(pushes.outline)
+    spreads = np.unique(np.minimum(SPREADS, most))
 
     half = np.arange(len(pushes.ways)) % 2
-    grid = [(float(share), float(mu_c)) for share in SHARES for mu_c in FRICTIONS]
+    grid = [(round(float(spread), 6), float(mu_c)) for spread in spreads for mu_c in FRICTIONS]
     task = progress.add_task(pushes.name, total=len(grid) + 2 * 8 * REFINEMENTS)
     chosen: list[tuple[float, float]] = []
     with ThreadPoolExecutor() as pool:
@@ -214,12 +218,12 @@ def fit(pushes: Pushes, progress: Progress) -> tuple[Errors, list[dict[str, floa
         for fold in (0, 1):
             losses = cost(grid, fold)
             best = grid[int(np.argmin(losses))]
-            steps = np.array([SHARES[1] - SHARES[0], FRICTIONS[1] - FRICTIONS[0]])
+            steps = np.array([SPREADS[1] - SPREADS[0], FRICTIONS[1] - FRICTIONS[0]])
             for _ in range(REFINEMENTS):
                 steps /= 2.0
                 around = [
                     (
-                        round(min(max(best[0] + i * steps[0], 0.05), 0.98), 6),
+                        round(min(max(best[0] + i * steps[0], 0.1), most), 6),
                         round(max(best[1] + j * steps[1], 0.0), 6),
                     )
                     for i in (-1, 0, 1)
@@ -235,7 +239,12 @@ def fit(pushes: Pushes, progress: Progress) -> tuple[Errors, list[dict[str, floa
         np.where(half == 0, second.angle, first.angle),
     )
     numbers = [
-        {'c_mm': 1000.0 * _radial(pushes.outline, share).c, 'mu_c': mu_c} for share, mu_c in chosen
+        {
+            'spread': spread,
+            'c_mm': 1000.0 * Support.spread(pushes.outline, spread, POINTS).c,
+            'mu_c': mu_c,
+        }
+        for spread, mu_c in chosen
     ]
     return fitted, numbers
 
@@ -325,7 +334,7 @@ def show(results: dict[str, dict[str, Any]]) -> None:
     Console().print(table)
     for name, result in results.items():
         halves = '; '.join(
-            f'c = {half["c_mm"]:.1f} mm, mu_c = {half["mu_c"]:.3f}'
+            f'spread = {half["spread"]:.2f}, c = {half["c_mm"]:.1f} mm, mu_c = {half["mu_c"]:.3f}'
             for half in result['fitted']['halves']
         )
         print(f'{name}: {result["pushes"]} pushes; fitted on either half: {halves}')
@@ -340,11 +349,6 @@ def show(results: dict[str, dict[str, Any]]) -> None:
 def _cells(errors: dict[str, float]) -> list[str]:
     keys = ('mean_mm', 'mean_deg', 'median_mm', 'median_deg')
     return [f'{errors[key]:.3f}' if key in errors else '' for key in keys]
-
-
-def _radial(outline: Outline, share: float) -> Support:
-    """Give the support whose c is a share of that of a load on the rim, see `Support.radial`."""
-    return Support.radial(outline, 1.0 / (1.0 - share) - 3.0, POINTS)
 
 
 if __name__ == '__main__':

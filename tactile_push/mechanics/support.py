@@ -25,6 +25,11 @@ from tactile_push.mechanics.quadrature import (
     integrals,
     spaced,
 )
+from tactile_push.mechanics.spread import (
+    largest_spread,
+    mean_distance,
+    standing_points,
+)
 
 COUNT = 400  # points that stand for a support; a push sums over them, m_max does not need them
 
@@ -33,7 +38,7 @@ COUNT = 400  # points that stand for a support; a push sums over them, m_max doe
 class Support:
     """Loads on the ground.
 
-    Made by `at_points`, `corners`, `rim`, `uniform`, `circle`, `radial` or `density`. Where points
+    Made by `at_points`, `corners`, `rim`, `uniform`, `circle`, `spread` or `density`. Where points
     only stand for a continuous support, `m_max` is that of the continuous one.
 
     References
@@ -188,22 +193,24 @@ class Support:
         )
 
     @classmethod
-    def radial(cls, outline: Outline, exponent: float, count: int = COUNT) -> 'Support':
-        """Spread the load by a power of the distance from the centre, as a share of the outline's.
+    def spread(cls, outline: Outline, spread: float, count: int = COUNT) -> 'Support':
+        """Spread the load between the centroid and the corners, by one number.
 
-        One number from a load in the middle to one on the rim: -2 is the limit of all load in the
-        centroid, 0 is uniform, infinity leaves the load to the boundary. Along a ray from the
-        centroid to the boundary at b, the pressure at the share s of it is s^exponent, so that
-        c = (exponent + 2) / (exponent + 3) times the mean of |b|, taken over the area.
+        0 is all load in the centroid, 1 an even pressure, 2 a load on the rim and 3 on
+        the corners; c grows all the way. On the rim each part of it bears what an even pressure
+        gives to the rays that end there, and a corner half of what the edges beside it do; the
+        centre of friction is the centroid. `rim` and `corners` are other supports: even along the
+        rim, and alike on all corners. An outline without corners spreads its load up to 2.
 
         Parameters
         ----------
         outline : Outline
             The outline.
-        exponent : float
-            Power, greater than -2.
+        spread : float
+            How far the load is spread, from 0 to 3, or to 2 without corners.
         count : int, optional
-            Number of points, roughly, that stand for the area.
+            Number of points, roughly, that stand for the area; from the rim on the square root of
+            it times 3.5 stand for the edges.
 
         Returns
         -------
@@ -213,24 +220,15 @@ class Support:
         Raises
         ------
         ValueError
-            If the exponent is not a finite number greater than -2.
+            If the spread is out of its range.
         """
         _positive('count', count)
-        if not (math.isfinite(exponent) and exponent > -2.0):
-            raise ValueError(f'exponent: expected a finite number above -2, got {exponent}')
-        area, centre = area_and_centroid(outline)
-        power = exponent + 2.0
-        m_max = power / (power + 1.0) * distances(outline.about(*centre), 1) / (2.0 * area)
-        # Rings of equal load, each with the points that a rim would have, at its mean share.
-        rings = max(1, round(math.sqrt(count / (4.0 * math.pi))))
-        b, t, ds = spaced(outline, count / rings)
-        b = b - centre
-        cross = (b[:, 0] * t[:, 1] - b[:, 1] * t[:, 0]) * ds
-        ends = np.linspace(0.0, 1.0, rings + 1) ** (1.0 / power)
-        shares = rings * power / (power + 1.0) * np.diff(ends ** (power + 1.0))
-        points = centre + (shares[:, np.newaxis, np.newaxis] * b).reshape(-1, 2)
-        loads = np.tile(cross / cross.sum() / rings, rings)
-        return cls._standing_for(points, loads, centre, m_max)
+        most = largest_spread(outline)
+        if not 0.0 <= spread <= most:
+            raise ValueError(f'spread: expected a number from 0 to {most:g}, got {spread}')
+        _, centre = area_and_centroid(outline)
+        m_max = mean_distance(outline.about(*centre), spread)
+        return cls._standing_for(*standing_points(outline, spread, count), centre, m_max)
 
     @classmethod
     def density(

@@ -19,7 +19,7 @@ SCRIPT = Path(__file__).parents[2] / 'benchmarks' / 'real_pushes.py'
 RADIUS = 0.005  # of the tip
 # The origin of the file's frame is far from the centroid (0.025, 0.0216).
 VERTICES = [[0.0, 0.0], [0.06, 0.0], [0.05, 0.04], [0.0, 0.05]]
-SHARES = (0.5, 0.6)
+SPREADS = (1.0, 1.4)
 FRICTIONS = (0.1, 0.3)
 
 
@@ -38,7 +38,7 @@ def script():
 def bench(script, monkeypatch):
     """Give the benchmark with a small grid and few points of support."""
     monkeypatch.setattr(script, 'POINTS', 40)
-    monkeypatch.setattr(script, 'SHARES', np.array(SHARES))
+    monkeypatch.setattr(script, 'SPREADS', np.array(SPREADS))
     monkeypatch.setattr(script, 'FRICTIONS', np.array(FRICTIONS))
     monkeypatch.setattr(script, 'REFINEMENTS', 0)
     return script
@@ -122,9 +122,9 @@ def content(pushes, **more):
 
 
 def synthetic(bench, count, *physics):
-    """Make pushes, by turns with the given shares and coefficients of friction."""
+    """Make pushes, by turns with the given spreads and coefficients of friction."""
     outline = Outline.polygon(VERTICES)
-    supports = [bench._radial(outline, share) for share, _ in physics]
+    supports = [Support.spread(outline, spread, 40) for spread, _ in physics]
     return [
         measured(supports[i % len(physics)], physics[i % len(physics)][1], *way)
         for i, way in enumerate(ways(count))
@@ -140,7 +140,7 @@ def deviation(one, other):
 
 
 def test_a_prediction_with_the_true_numbers_has_no_error(bench, write):
-    pushes = synthetic(bench, 12, (0.6, 0.25))
+    pushes = synthetic(bench, 12, (1.4, 0.25))
     folder = write(content(pushes))
     # They are pushes: the object moves and turns.
     moved, turned = deviation(pushes, [{'object_end': push['object_start']} for push in pushes])
@@ -148,24 +148,24 @@ def test_a_prediction_with_the_true_numbers_has_no_error(bench, write):
     assert np.median(turned) > 0.05
 
     read = bench.read_pushes(folder / 'block.json')
-    errors = bench.predict(read, bench._radial(read.outline, 0.6), 0.25)
+    errors = bench.predict(read, Support.spread(read.outline, 1.4, 40), 0.25)
 
     assert read.name == 'block'
     assert errors.position == pytest.approx(0.0, abs=1e-9)
     assert errors.angle == pytest.approx(0.0, abs=1e-9)
-    wrong = bench.predict(read, bench._radial(read.outline, 0.9), 0.05)
+    wrong = bench.predict(read, Support.spread(read.outline, 2.4, 40), 0.05)
     assert wrong.position.mean() > 1e-4
 
 
 def test_errors_are_distances_of_the_origin_and_angles_the_short_way_around(bench, write):
-    pushes = synthetic(bench, 3, (0.6, 0.25))
+    pushes = synthetic(bench, 3, (1.4, 0.25))
     pushes[0]['object_end'][0] += 0.003
     pushes[0]['object_end'][1] -= 0.004
     pushes[1]['object_end'][2] += 0.25
     pushes[2]['object_end'][2] += 2.0 * math.pi - 0.125
     read = bench.read_pushes(write(content(pushes)) / 'block.json')
 
-    errors = bench.predict(read, bench._radial(read.outline, 0.6), 0.25)
+    errors = bench.predict(read, Support.spread(read.outline, 1.4, 40), 0.25)
 
     assert errors.position == pytest.approx([0.005, 0.0, 0.0], abs=1e-9)
     assert errors.angle == pytest.approx([0.0, 0.25, 0.125], abs=1e-9)
@@ -235,7 +235,7 @@ def test_an_overlap_moves_the_way_of_the_tip_out_along_the_normal(bench, write):
         contact = complex(*begin) + (outside - RADIUS) * inward
         finish = complex(*end) + (outside - RADIUS) * inward
         push = measured(
-            bench._radial(Outline.polygon(VERTICES), 0.6),
+            Support.spread(Outline.polygon(VERTICES), 1.4, 40),
             0.2,
             start,
             (contact.real, contact.imag),
@@ -247,20 +247,20 @@ def test_an_overlap_moves_the_way_of_the_tip_out_along_the_normal(bench, write):
         pushes.append(push)
     read = bench.read_pushes(write(content(pushes)) / 'block.json')
 
-    errors = bench.predict(read, bench._radial(read.outline, 0.6), 0.2)
+    errors = bench.predict(read, Support.spread(read.outline, 1.4, 40), 0.2)
 
     assert errors.position == pytest.approx(0.0, abs=1e-8)
     assert errors.angle == pytest.approx(0.0, abs=1e-7)
 
 
 def test_the_fit_finds_the_numbers_of_the_pushes(bench, write):
-    read = bench.read_pushes(write(content(synthetic(bench, 12, (0.5, 0.3)))) / 'block.json')
+    read = bench.read_pushes(write(content(synthetic(bench, 12, (1.0, 0.3)))) / 'block.json')
 
     with Progress(disable=True) as progress:
         errors, numbers = bench.fit(read, progress)
 
-    c = bench._radial(read.outline, 0.5).c
-    assert numbers == [pytest.approx({'c_mm': 1000.0 * c, 'mu_c': 0.3})] * 2
+    c = Support.spread(read.outline, 1.0, 40).c
+    assert numbers == [pytest.approx({'spread': 1.0, 'c_mm': 1000.0 * c, 'mu_c': 0.3})] * 2
     assert errors.position == pytest.approx(0.0, abs=1e-9)
     assert errors.angle == pytest.approx(0.0, abs=1e-9)
 
@@ -268,21 +268,21 @@ def test_the_fit_finds_the_numbers_of_the_pushes(bench, write):
 def test_refinements_find_numbers_between_those_of_the_grid(bench, write, monkeypatch):
     # Whichever point of the grid is best, the one in the middle is half a step away.
     monkeypatch.setattr(bench, 'REFINEMENTS', 1)
-    read = bench.read_pushes(write(content(synthetic(bench, 6, (0.55, 0.2)))) / 'block.json')
+    read = bench.read_pushes(write(content(synthetic(bench, 6, (1.2, 0.2)))) / 'block.json')
 
     with Progress(disable=True) as progress:
         errors, numbers = bench.fit(read, progress)
 
-    c = bench._radial(read.outline, 0.55).c
+    c = Support.spread(read.outline, 1.2, 40).c
     for half in numbers:
-        assert half == pytest.approx({'c_mm': 1000.0 * c, 'mu_c': 0.2})
+        assert half == pytest.approx({'spread': 1.2, 'c_mm': 1000.0 * c, 'mu_c': 0.2})
     assert errors.position == pytest.approx(0.0, abs=1e-9)
 
 
 def test_either_half_is_predicted_with_the_numbers_of_the_other(bench, write):
     # Every second push has other physics, so that what is fitted on one half is wrong for the
     # other by what the two physics differ for the same push.
-    first, second = (0.5, 0.1), (0.6, 0.3)
+    first, second = (1.0, 0.1), (1.4, 0.3)
     mixed = synthetic(bench, 12, first, second)
     swapped = synthetic(bench, 12, second, first)
     read = bench.read_pushes(write(content(mixed)) / 'block.json')
@@ -291,8 +291,12 @@ def test_either_half_is_predicted_with_the_numbers_of_the_other(bench, write):
         errors, numbers = bench.fit(read, progress)
 
     expected = [
-        {'c_mm': 1000.0 * bench._radial(read.outline, share).c, 'mu_c': mu_c}
-        for share, mu_c in (first, second)
+        {
+            'spread': spread,
+            'c_mm': 1000.0 * Support.spread(read.outline, spread, 40).c,
+            'mu_c': mu_c,
+        }
+        for spread, mu_c in (first, second)
     ]
     assert numbers == [pytest.approx(half) for half in expected]
     position, angle = deviation(mixed, swapped)
@@ -347,9 +351,9 @@ def test_a_support_that_is_none_is_refused(refused, write, support):
 def test_json_has_the_errors_of_every_file_beside_the_published_ones(bench, main, write):
     published = {'ellipsoid': {'mean_mm': 2.5, 'mean_deg': 4.0}}
     still = {'mean_mm': 20.0, 'mean_deg': 15.0}
-    write(content(synthetic(bench, 4, (0.5, 0.3)), published=published), 'a')
+    write(content(synthetic(bench, 4, (1.0, 0.3)), published=published), 'a')
     folder = write(
-        content(synthetic(bench, 5, (0.6, 0.1)), object_did_not_move_baseline=still), 'b'
+        content(synthetic(bench, 5, (1.4, 0.1)), object_did_not_move_baseline=still), 'b'
     )
     (folder / 'README.md').write_text('not a file of pushes')
 
@@ -373,7 +377,7 @@ def test_json_has_the_errors_of_every_file_beside_the_published_ones(bench, main
 
 def test_the_table_has_every_file_and_model(bench, main, write):
     published = {'polynomial': {'mean_mm': 1.25, 'mean_deg': 3.5}}
-    folder = write(content(synthetic(bench, 4, (0.5, 0.3)), published=published))
+    folder = write(content(synthetic(bench, 4, (1.0, 0.3)), published=published))
 
     status, out, _ = main(folder)
 
