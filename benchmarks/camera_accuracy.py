@@ -18,6 +18,7 @@ from tactile_push.calibration.coverage import suggested_touches
 from tactile_push.calibration.touch_table import KnownTouch
 from tactile_push.simulation.dome_image import DomeImages, DomeView
 from tactile_push.tactile import NO_CONTACT, Reading
+from tactile_push.tactile.cut_region import CutRegions
 from tactile_push.tactile.image_contact import IMAGES_OF_REFERENCE
 from tactile_push.tactile.sphere import angles_between, angles_of, directions_of
 from tactile_push.tactile.touched_region import mean_image, touched_region
@@ -56,11 +57,11 @@ def study(view: DomeView, contacts: int, seed: int) -> tuple[float, np.ndarray, 
     azimuth = random.uniform(-math.pi, math.pi, contacts)
     elevation = np.arcsin(random.uniform(math.sin(LOWEST), 1.0, contacts))
     true = directions_of(azimuth, elevation)
-    where = fit.camera.dome()
+    cut = CutRegions(fit.camera)
     errors = []
     for a, e, direction in zip(azimuth, elevation, true, strict=True):
         image = dome.image(Reading(a, e, random.uniform(*FORCES)))
-        region = touched_region(image, reference, THRESHOLD, where)
+        region = cut.completed(touched_region(image, reference, THRESHOLD, cut.dome))
         errors.append(angles_between(fit.camera.directions((region.x, region.y)), direction))
     return fit.rms, np.array(errors), angles_of(true)[1]
 

@@ -10,9 +10,10 @@ import numpy as np
 from tactile_push.calibration.camera_fit import CameraFit, fit_camera
 from tactile_push.calibration.camera_images import TouchImages
 from tactile_push.calibration.touch_table import KnownTouch
+from tactile_push.tactile.cut_region import CutRegions
 from tactile_push.tactile.rim import Rim, RimProfile
 from tactile_push.tactile.sphere import Array, directions_of
-from tactile_push.tactile.touched_region import LEAST_PIXELS, Mask, touched_region
+from tactile_push.tactile.touched_region import LEAST_PIXELS, touched_region
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ def calibrate_camera(images: TouchImages, threshold: float) -> CameraCalibration
     directions = directions_of(azimuths, [touch.elevation for touch in images.touches])
     pixels, _ = _found(images, threshold, None)
     first = fit_camera(pixels, directions, width, height)
-    pixels, areas = _found(images, threshold, first.camera.dome())
+    pixels, areas = _found(images, threshold, CutRegions(first.camera))
     fit = fit_camera(pixels, directions, width, height)
     seen = np.array([fit.camera.solid_angle(x, y) for x, y in pixels])
     return CameraCalibration(
@@ -71,15 +72,18 @@ def calibrate_camera(images: TouchImages, threshold: float) -> CameraCalibration
     )
 
 
-def _found(images: TouchImages, threshold: float, where: Mask | None) -> tuple[Array, Array]:
+def _found(images: TouchImages, threshold: float, cut: CutRegions | None) -> tuple[Array, Array]:
     """Return where the touches appear [px], and their areas [px]."""
     pixels, areas = [], []
     for image, name in zip(images.images, images.names, strict=True):
+        where = None if cut is None else cut.dome
         region = touched_region(image, images.reference, threshold, where)
         if region.area < LEAST_PIXELS:
             raise ValueError(
                 f'{name}: expected a touch, got an image like that of the untouched tip'
             )
+        if cut is not None:
+            region = cut.completed(region)
         pixels.append((region.x, region.y))
         areas.append(region.area)
     return np.array(pixels).reshape(-1, 2), np.array(areas, float)

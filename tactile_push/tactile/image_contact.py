@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from tactile_push.tactile.cut_region import CutRegions
 from tactile_push.tactile.dome_camera import DomeCamera
 from tactile_push.tactile.hemisphere import ReadingRejectedError
 from tactile_push.tactile.reading import NO_CONTACT, NotUntouchedError, Reading
@@ -97,7 +98,8 @@ class ImageContactFinder:
         self._calibrated_rim = rim
         self._rim = None if rim is None else Rim(camera)
         self._at_start = at_start
-        self._dome = camera.dome().view(np.uint8)
+        self._cut = CutRegions(camera)
+        self._dome = self._cut.dome
         self._dome_area = int(np.count_nonzero(self._dome))
         self._last: deque[Image] = deque(maxlen=IMAGES_OF_REFERENCE)
         self._previous: Image | None = None
@@ -147,6 +149,7 @@ class ImageContactFinder:
         if region.changed > MOST_CHANGED * self._dome_area:
             self._touched = False
             raise ReadingRejectedError(CHANGED)
+        region = self._cut.completed(region)
         area = self._area(region)
         self._touched = area >= self.settings.least_area
         if not self._touched:

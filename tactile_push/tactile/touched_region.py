@@ -26,9 +26,11 @@ class Region(NamedTuple):
     area: int  #: [px]
     change: float  #: of a pixel of it, in the mean [levels]
     changed: int  #: area of all regions together [px]
+    outline: npt.NDArray[np.int64]  #: column and row of the pixels at its edge, shape (n, 2)
 
 
-NOTHING = Region(np.nan, np.nan, 0, 0.0, 0)
+NOTHING = Region(np.nan, np.nan, 0, 0.0, 0, np.empty((0, 2), np.int64))
+AROUND = np.ones((3, 3), np.uint8)
 
 
 def mean_image(images: Iterable[Image]) -> Reference:
@@ -84,8 +86,12 @@ def touched_region(
     largest = int(np.argmax(areas))
     left, top, width, height, area = statistics[1 + largest].tolist()
     box = slice(top, top + height), slice(left, left + width)
-    weights = np.where(labels[box] == 1 + largest, change[box], 0.0)
+    inside = labels[box] == 1 + largest
+    weights = np.where(inside, change[box], 0.0)
     total = float(weights.sum())
     x = left + float(weights.sum(axis=0) @ np.arange(width)) / total
     y = top + float(weights.sum(axis=1) @ np.arange(height)) / total
-    return Region(x, y, area, total / area, int(areas.sum()))
+    within = cv2.erode(inside.view(np.uint8), AROUND, borderValue=0)
+    rows, columns = np.nonzero(inside & (within == 0))
+    outline = np.stack([columns + left, rows + top], axis=-1)
+    return Region(x, y, area, total / area, int(areas.sum()), outline)

@@ -11,7 +11,9 @@ import pytest
 pytest.importorskip('cv2', reason="pip install 'tactile_push[camera]'")
 
 from support.dome import CAMERA, HEIGHT, ON_DOME, SLOPE, WIDTH, DomePainter
-from tactile_push.tactile import NotUntouchedError, ReadingRejectedError
+from tactile_push.simulation.dome_image import DomeImages, DomeView
+from tactile_push.tactile import NO_CONTACT, NotUntouchedError, Reading, ReadingRejectedError
+from tactile_push.tactile.dome_camera import DomeCamera
 from tactile_push.tactile.image_contact import (
     IMAGES_OF_REFERENCE,
     ImageContactFinder,
@@ -62,6 +64,23 @@ def tip():
     tip = Tip()
     tip.refer()
     return tip
+
+
+def test_contact_of_which_the_rim_hides_a_part_is_found_to_half_a_degree():
+    dome = DomeImages(DomeView(width=320, height=240, focal_length=130.0, defocus=0.0))
+    f = dome.view.focal_length
+    camera = DomeCamera(
+        *(320, 240, (159.5, 119.5), (math.pi, 0.0, 0.0)),
+        *((f, -f / 24.0, f / 1920.0), (0.0, 0.0, -1.0)),  # of 2 f sin(alpha/2)
+    )
+    finder = ImageContactFinder(camera, SETTINGS, at_start=True)
+    for number in range(IMAGES_OF_REFERENCE):
+        with no_error() if number == 9 else pytest.raises(ReadingRejectedError):
+            finder.contact(dome.image(NO_CONTACT), 0.02 * number)
+    at = Reading(0.5, math.radians(4.0), 2.0)  # its radius is (2/250)^(1/3), 11.5°
+    found = finder.contact(dome.image(at), 1.0).reading
+    assert found.azimuth == pytest.approx(at.azimuth, abs=math.radians(0.2))
+    assert found.elevation == pytest.approx(at.elevation, abs=math.radians(0.5))
 
 
 @pytest.mark.parametrize(
