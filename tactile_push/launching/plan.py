@@ -123,9 +123,9 @@ def finger_plan(texts: Mapping[str, str]) -> Plan:
     # Of a hard tip the hemisphere has the disk's radius; a file may know better.
     tip: Sections = {f'/**/{WRENCH_SENSOR}': {'tip_radius': p.finger_radius}}
     files = [tip, read_file(pushed), hardware]
-    if p.calibration:
-        files.append(read_file(Path(p.calibration)))
     kind, values = SENSOR_KINDS[p.sensor], _values(p)
+    if p.calibration:
+        files.append(_calibration(p, kind.node))
     own = {kind.node: kind.parameters, ACTIVE_SENSING: kind.sensing} if p.sim else {}
     names = [kind.node, *_LOOP]
     if p.robot == JOINTS and p.servo:
@@ -145,6 +145,28 @@ def finger_plan(texts: Mapping[str, str]) -> Plan:
     return Plan((*shown, *nodes), p.namespace, p.sim)
 
 
+def _calibration(p: FingerArguments, node: str) -> Sections:
+    """Return the sections of the calibration; ValueError if it is of another sensor or tip."""
+    sections = read_file(Path(p.calibration))
+    place = f'/{p.namespace}/{node}' if p.namespace else f'/{node}'
+    ours = [values for section, values in sections.items() if matches(section, place)]
+    if not ours:
+        raise ValueError(
+            f'{p.calibration}: expected the calibration of a {p.sensor}, for {node}, got one for '
+            f'{", ".join(map(own_name, sections)) or "none"}'
+        )
+    for radius in (values['tip_radius'] for values in ours if 'tip_radius' in values):
+        if not 1.0 / MOST_OTHER <= radius / p.finger_radius <= MOST_OTHER:
+            raise ValueError(
+                f'{p.calibration}: tip_radius: expected that of a tip with finger_radius '
+                f'{p.finger_radius:g} m, got {radius:g} m, which is that of another tip'
+            )
+    return sections
+
+
+# The paper's tip has 16 mm and touches at 13.5 mm from its centre. Radii that differ by more than
+# this factor are not of one tip. Picked.
+MOST_OTHER = 1.5
 _LOOP = (CONTACT_GEOMETRY, PUSH_CONTROLLER, ACTIVE_SENSING)
 
 

@@ -141,6 +141,29 @@ def test_file_may_know_better_than_the_machine_what_radius_touches(own):
 
 
 @pytest.mark.parametrize(
+    ('sensor', 'node', 'values', 'refusal'),
+    [
+        ('camera', 'wrench_sensor', {}, 'calibration of a camera, for camera_sensor, got one for '),
+        ('wrench', 'camera_sensor', {}, 'got one for camera_sensor'),
+        ('sentence', 'wrench_sensor', {}, 'calibration of a sentence, for sensor_driver'),
+        ('wrench', 'wrench_sensor', {'tip_radius': 0.03}, 'tip_radius: .* got 0.03 m, which is'),
+        ('wrench', 'wrench_sensor', {'tip_radius': 0.008}, 'got 0.008 m, which is that of anothe'),
+    ],
+)
+def test_calibration_of_another_sensor_or_tip_is_refused(own, sensor, node, values, refusal):
+    calibration = own('calibration.yaml', **{node: {'autostart': False, **values}})
+    with pytest.raises(ValueError, match=refusal) as refused:
+        finger_plan({'sensor': sensor, 'calibration': calibration})
+    assert str(refused.value).startswith(f'{calibration}: ')
+
+
+def test_calibration_is_found_below_a_namespace(own):
+    calibration = own('calibration.yaml', wrench_sensor={'tip_radius': 0.015})
+    plan = finger_plan({'sensor': 'wrench', 'calibration': calibration, 'namespace': 'left'})
+    assert values(plan, 'wrench_sensor')['tip_radius'] == 0.015
+
+
+@pytest.mark.parametrize(
     ('sensor', 'remappings'),
     [
         ('wrench', {'wrench': '/driver/out'}),
