@@ -3,6 +3,7 @@
 """The page in a real browser: what it shows, what it does, and that it asks nobody for anything."""
 
 import contextlib
+import functools
 import math
 import re
 import time
@@ -42,44 +43,68 @@ def page_file(tmp_path_factory):
     return folder / 'page.html'
 
 
+class Tab:
+    """A tab of a browser. What it shows must be quiet and ask nobody for anything.
+
+    One tab shows all pages, one after the other: it knows the code of the plots after the first.
+    """
+
+    def __init__(self, browser, **options):
+        self.page = browser.new_context(viewport=DESKTOP, **options).new_page()
+        self._complaints, self._asked_for, self._shown = [], [], 0
+        self.page.on('console', lambda message: self._complaints.append(message.text))
+        self.page.on('pageerror', lambda error: self._complaints.append(str(error)))
+        self.page.on('dialog', lambda dialog: self._complaints.append(dialog.message))
+        self.page.on('request', lambda request: self._asked_for.append(request.url))
+
+    def show(self, page_file, viewport=DESKTOP, scheme='light'):
+        self.page.mouse.move(0, 0)
+        self.page.set_viewport_size(viewport)
+        self.page.emulate_media(color_scheme=scheme, media='screen')
+        self.page.goto(page_file.as_uri())
+        wait_for(self.page, READY)
+        self._shown += 1
+        return self.page
+
+    def check(self):
+        assert self._complaints == []
+        fetched = [url for url in self._asked_for if not url.startswith(('data:', 'blob:'))]
+        assert len(fetched) == self._shown
+        assert all(url.startswith('file:') for url in fetched)
+
+
 @contextlib.contextmanager
-def visits(browser, page_file):
-    """Return a function that opens the page; at the end it must have been quiet and alone."""
-    contexts, complaints, requests = [], [], []
+def tab_of(browser, **options):
+    """Give a tab that is closed at the end."""
+    tab = Tab(browser, **options)
+    yield tab
+    tab.page.context.close()
+    tab.check()
 
-    def open_page(viewport=DESKTOP, page_file=page_file, **options):
-        context = browser.new_context(viewport=viewport, **options)
-        contexts.append(context)
-        page = context.new_page()
-        page.on('console', lambda message: complaints.append(message.text))
-        page.on('pageerror', lambda error: complaints.append(str(error)))
-        page.on('dialog', lambda dialog: complaints.append(dialog.message))
-        page.on('request', lambda request: requests.append(request.url))
-        page.goto(page_file.as_uri())
-        wait_for(page, READY)
-        return page
 
-    yield open_page
-    for context in contexts:
-        context.close()
-    assert complaints == []
-    fetched = [url for url in requests if not url.startswith(('data:', 'blob:'))]
-    assert len(fetched) == len(contexts)
-    assert all(url.startswith('file:') for url in fetched)
+@pytest.fixture(scope='module')
+def shared_tab(browser):
+    with tab_of(browser) as tab:
+        yield tab
 
 
 @pytest.fixture
-def opened(browser, page_file):
+def tab(shared_tab):
+    yield shared_tab
+    shared_tab.check()
+
+
+@pytest.fixture
+def opened(tab, page_file):
     """Return a function that opens the page for this test alone."""
-    with visits(browser, page_file) as open_page:
-        yield open_page
+    return functools.partial(tab.show, page_file)
 
 
 @pytest.fixture(scope='module')
 def page(browser, page_file):
     """Return a page for all tests that read it or move its time, and leave it so."""
-    with visits(browser, page_file) as open_page:
-        yield open_page()
+    with tab_of(browser) as tab:
+        yield tab.show(page_file)
 
 
 def double_click(page, t, part, condition):
@@ -259,7 +284,7 @@ def test_episodes_are_drawn_and_listed(page):
 
 
 def test_nothing_that_the_bag_says_comes_to_life(opened):
-    page = opened({'width': 1280, 'height': 1400})
+    page = opened(viewport={'width': 1280, 'height': 1400})
     page.locator('details').evaluate_all('all => all.forEach(details => { details.open = true; })')
     assert page.evaluate('window.hacked') is None
     assert page.evaluate('document.images.length') == 0
@@ -321,7 +346,7 @@ def drawn_colors(page):
 
 @pytest.mark.parametrize('scheme', ['light', 'dark'])
 def test_contrast_suffices_in_both_schemes(opened, scheme):
-    page = opened(color_scheme=scheme)
+    page = opened(scheme=scheme)
     found = colors(page)
     assert (luminance(found['paper']) < 0.2) == (scheme == 'dark')
     for ground in ('paper', 'panel'):
@@ -335,7 +360,7 @@ def test_contrast_suffices_in_both_schemes(opened, scheme):
 
 
 def test_plots_follow_the_scheme_while_the_page_is_open(opened):
-    page = opened(color_scheme='light')
+    page = opened(scheme='light')
     light = drawn_colors(page)
     page.emulate_media(color_scheme='dark')
     wait_for(
@@ -346,24 +371,30 @@ def test_plots_follow_the_scheme_while_the_page_is_open(opened):
     assert drawn_colors(page) == [dark['text'], dark['blue']]
 
 
-def test_phone_needs_no_horizontal_scrolling(opened):
-    page = opened(PHONE, has_touch=True, is_mobile=True)
-    page.locator('details').evaluate_all('all => all.forEach(details => { details.open = true; })')
-    assert page.evaluate('document.documentElement.scrollWidth') == PHONE['width']
+@pytest.fixture
+def phone(browser, page_file):
+    """Return the page on a phone."""
+    with tab_of(browser, has_touch=True, is_mobile=True) as tab:
+        yield tab.show(page_file, PHONE)
+
+
+def test_phone_needs_no_horizontal_scrolling(phone):
+    phone.locator('details').evaluate_all('all => all.forEach(details => { details.open = true; })')
+    assert phone.evaluate('document.documentElement.scrollWidth') == PHONE['width']
     for selector in ('#view', '#plots svg.main-svg', '#time', '#play', '#speed', 'table'):
-        for box in [one.bounding_box() for one in page.locator(selector).all()]:
+        for box in [one.bounding_box() for one in phone.locator(selector).all()]:
             assert box['x'] >= 0.0, selector
             if selector != 'table':  # which may scroll on its own
                 assert box['x'] + box['width'] <= PHONE['width'], selector
-    x, y = place(page, 8.0, 0.5)
-    page.evaluate('y => scrollTo(0, y)', y - 300.0)
-    x, y = place(page, 8.0, 0.5)
-    page.touchscreen.tap(x, y)
-    assert time_of(page) == pytest.approx(8.0, abs=0.1)
+    x, y = place(phone, 8.0, 0.5)
+    phone.evaluate('y => scrollTo(0, y)', y - 300.0)
+    x, y = place(phone, 8.0, 0.5)
+    phone.touchscreen.tap(x, y)
+    assert time_of(phone) == pytest.approx(8.0, abs=0.1)
 
 
 def test_print_is_light_whole_and_without_controls(opened):
-    page = opened(color_scheme='dark')
+    page = opened(scheme='dark')
     page.evaluate(
         """() => addEventListener('beforeprint', () => {
             window.printed = {
@@ -390,7 +421,7 @@ def test_print_is_light_whole_and_without_controls(opened):
 
 
 def test_screen_is_as_before_after_printing(opened):
-    page = opened(color_scheme='dark')
+    page = opened(scheme='dark')
     before = drawn_colors(page), page.locator('#plots svg.main-svg').first.bounding_box()
     page.pdf(format='A4')
     wait_for(page, '!document.documentElement.classList.contains("printing")')
@@ -399,10 +430,10 @@ def test_screen_is_as_before_after_printing(opened):
     assert not page.locator('details').first.evaluate('details => details.open')
 
 
-def test_run_without_a_simulator_has_finger_and_contact_and_no_object(opened, tmp_path):
+def test_run_without_a_simulator_has_finger_and_contact_and_no_object(tab, tmp_path):
     bag = write_bag(tmp_path / 'bag', truth=False, parameters=None)
     assert main(['report', str(bag), '-o', str(tmp_path / 'page.html')]) == 0
-    page = opened(page_file=tmp_path / 'page.html')
+    page = tab.show(tmp_path / 'page.html')
     move_slider(page, 4.0)
     normal = theta(4.0) + math.pi / 2.0
     assert coordinates(page, '#normal', 'x1', 'y1') == pytest.approx(
@@ -418,19 +449,19 @@ def test_run_without_a_simulator_has_finger_and_contact_and_no_object(opened, tm
 
 
 @pytest.mark.parametrize('own', ['tactile', 'contact', 'ground_truth/object_pose', STATE])
-def test_page_of_a_single_message_works(opened, tmp_path, own):
+def test_page_of_a_single_message_works(tab, tmp_path, own):
     ((kind, data),) = [row[1:] for row in messages(0.0, tick=True) if row[0] == own]
     with BagWriter(tmp_path / 'bag') as bag:
         bag.add_topic(f'/{own}', kind)
         bag.write(f'/{own}', data, START, START)
     assert main(['report', str(tmp_path / 'bag'), '-o', str(tmp_path / 'page.html')]) == 0
-    page = opened(page_file=tmp_path / 'page.html')
+    page = tab.show(tmp_path / 'page.html')
     assert time_of(page) == 0.0
     assert page.locator('#normal').is_visible() == (own in ('contact', STATE))
     assert page.locator('#plots-section').is_visible() == (own != 'ground_truth/object_pose')
 
 
-def test_estimates_are_drawn_with_their_bounds(opened, tmp_path):
+def test_estimates_are_drawn_with_their_bounds(tab, tmp_path):
     with BagWriter(tmp_path / 'bag') as bag:
         kind = 'geometry_msgs/msg/PoseWithCovarianceStamped'
         bag.add_topic('/active_sensing/state', 'sensor_msgs/msg/JointState')
@@ -442,7 +473,7 @@ def test_estimates_are_drawn_with_their_bounds(opened, tmp_path):
             bag.write('/active_sensing/state', state, now, now)
             bag.write('/object_pose', estimated_pose(t, 0.001 * k, 0.04), now, now)
     assert main(['report', str(tmp_path / 'bag'), '-o', str(tmp_path / 'page.html')]) == 0
-    page = opened(page_file=tmp_path / 'page.html')
+    page = tab.show(tmp_path / 'page.html')
     page.locator('#time').press('End')
     assert page.locator('#at-d').text_content() == '1.00 mm'
     moved = re.findall(r'-?[\d.]+', page.locator('#estimate').get_attribute('transform'))
