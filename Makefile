@@ -19,6 +19,9 @@ GRAPH := test/faults test/fuzzing test/hostile test/nodes test/playing test/reco
 # what was started for them, so each process begins with its part of the files.
 PYTEST := $(BIN)/python -m pytest --numprocesses 3 --dist worksteal
 
+# Python keeps its byte code, whatever the user has set: the tests start hundreds of processes.
+unexport PYTHONDONTWRITEBYTECODE
+
 .PHONY: demo test test-quick docs lint bench faults fuzz soak clean
 
 demo: $(READY)
