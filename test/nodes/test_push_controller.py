@@ -39,7 +39,9 @@ from tactile_push.pipeline.stamps import stamp_of
 from tactile_push.tactile.planar_finger import USUAL_FINGER
 from tactile_push.testing import field
 
-RATE = {'control_rate': 50.0, 'max_ticks_lost': 100}
+# However late a loaded machine lets it run, the node shall not stop for it here.
+PATIENT = {'max_ticks_lost': 100, 'contact_timeout': 10.0, 'joint_state_timeout': 10.0}
+RATE = {'control_rate': 50.0, **PATIENT}
 
 
 def feel(bench, publisher, theta):
