@@ -199,7 +199,8 @@ def _support(
     from tactile_push.simulation import read_support
 
     if name in ('corners', 'uniform', 'rim'):
-        return getattr(Support, name)(outline)
+        support = getattr(Support, name)(outline)
+        return support if centre_of_mass is None else support.carrying(centre_of_mass)
     if name.startswith('circle:'):
         try:
             radius = float(name.removeprefix('circle:'))
@@ -212,4 +213,4 @@ def _support(
             raise ValueError(f'support: expected a circle under the object, got {name}')
         return support
     with naming(name, '--support'):
-        return read_support(Path(name))
+        return read_support(Path(name), centre_of_mass)

@@ -21,6 +21,7 @@ from tactile_push.mechanics.outline import Outline
 from tactile_push.mechanics.push import move_finger
 from tactile_push.mechanics.support import Support
 
+UNBALANCED = 0.02  # how far loads may be off, as by two digits of a file [c]
 OVERHANG = 1e-6  # how far a support point may stick out, by rounding [length of the outline]
 
 
@@ -77,8 +78,8 @@ class Slider:
             mu_s times the height of the push above the support [m], see `ExactLimitSurface`; 0 for
             the ellipsoid.
         centre_of_mass : tuple of float, optional
-            Centre of mass (x, y) [m], if it is known: it must lie over the support. The motion
-            depends on the centre of friction alone.
+            Centre of mass (x, y) [m], if it is known and mu_s is even: the loads must carry the
+            weight there, as those of `Support.carrying` do. The motion depends on the loads alone.
 
         Returns
         -------
@@ -88,8 +89,8 @@ class Slider:
         Raises
         ------
         ValueError
-            If support points lie outside the outline or all in one place, or the object would tip
-            over because the centre of mass lies beside all support. If the push may lift a support
+            If support points lie outside the outline or all in one place, or the loads do not
+            balance about the centre of mass. If the push may lift a support
             point off the ground, or is above an ellipsoid's.
         """
         loaded = support.points[support.loads > 0.0]
@@ -102,7 +103,7 @@ class Slider:
             raise ValueError(f'tilt: expected 0 m for the ellipsoid, got {tilt} m')
         surface = ExactLimitSurface(support, tilt)
         if centre_of_mass is not None:
-            _check_balance(loaded, centre_of_mass)
+            _check_weight(support, centre_of_mass)
         return cls(outline.about(*support.centre), support.c, surface.points if exact else None)
 
     def wrench(self, twist: npt.ArrayLike) -> Array:
@@ -195,21 +196,13 @@ class Slider:
         return pose
 
 
-def _check_balance(points: Array, centre_of_mass: tuple[float, float]) -> None:
-    """Refuse a centre of mass with no support on one side of it, in whatever direction."""
+def _check_weight(support: Support, centre_of_mass: tuple[float, float]) -> None:
+    """Refuse loads that statics forbids: they do not carry the weight where it is."""
     if not np.isfinite(centre_of_mass).all():
         raise ValueError(f'centre_of_mass: expected a finite point [m], got {centre_of_mass}')
-    offset = points - centre_of_mass
-    reach = np.hypot(offset[:, 0], offset[:, 1])
-    far = reach > OVERHANG * reach.max()
-    if not far.all():
-        return  # it rests on one of the points
-    angles = np.sort(np.arctan2(offset[:, 1], offset[:, 0]))
-    gaps = np.diff(angles, append=angles[0] + 2.0 * math.pi)
-    widest = int(np.argmax(gaps))
-    if gaps[widest] > math.pi + 1e-9:
-        side = math.degrees(angles[widest] + gaps[widest] / 2.0) % 360.0
+    if not math.dist(support.centre, centre_of_mass) <= UNBALANCED * support.c:
+        x, y = (round(value, 6) + 0.0 for value in support.centre)
         raise ValueError(
-            f'centre_of_mass: expected a point over the support, got {centre_of_mass} m, which '
-            f'has no support on its side at {side:.0f} degrees'
+            f'support: expected loads that carry a weight at {centre_of_mass} m, got loads about '
+            f'({x}, {y}) m'
         )

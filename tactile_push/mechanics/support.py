@@ -30,6 +30,7 @@ from tactile_push.mechanics.spread import (
     mean_distance,
     standing_points,
 )
+from tactile_push.mechanics.statics import spring_loads
 
 COUNT = 400  # points that stand for a support; a push sums over them, m_max does not need them
 
@@ -38,8 +39,9 @@ COUNT = 400  # points that stand for a support; a push sums over them, m_max doe
 class Support:
     """Loads on the ground.
 
-    Made by `at_points`, `corners`, `rim`, `uniform`, `circle`, `spread` or `density`. Where points
-    only stand for a continuous support, `m_max` is that of the continuous one.
+    Made by `at_points`, `corners`, `rim`, `uniform`, `circle`, `spread` or `density`; `carrying`
+    gives it the loads under a centre of mass. Where points only stand for a continuous support,
+    `m_max` is that of the continuous one.
 
     References
     ----------
@@ -58,9 +60,44 @@ class Support:
         """The ratio m_max / f_max [m] of eqs. (4) and (5)."""
         return self.m_max / self.f_max
 
+    def carrying(self, centre_of_mass: tuple[float, float]) -> 'Support':
+        """Let the support carry a weight, under an even mu_s.
+
+        Up to three points that are not on one line have no other loads than these, by statics. More
+        points bear as springs do on which the object sinks and tilts, each as stiff as its present
+        load: with loads that are alike, these are the loads of least squares. A point that would
+        have to pull bears nothing.
+
+        Parameters
+        ----------
+        centre_of_mass : tuple of float
+            Centre of mass (x, y) [m]; it becomes the centre of friction.
+
+        Returns
+        -------
+        Support
+            The support with other loads, their sum as before. That the points only stand for a
+            continuous support changes m_max by the same factor as before.
+
+        Raises
+        ------
+        ValueError
+            If the centre of mass lies beside all support: the object tips over.
+        """
+        loads = self.f_max * spring_loads(self.points, self.loads, centre_of_mass)
+        moments = [
+            float(load @ np.hypot(*(self.points - centre).T))
+            for load, centre in ((self.loads, self.centre), (loads, centre_of_mass))
+        ]
+        m_max = moments[1] * (self.m_max / moments[0] if moments[0] > 0.0 else 1.0)
+        x, y = map(float, centre_of_mass)
+        return Support(self.points, loads, (x, y), self.f_max, m_max)
+
     @classmethod
     def at_points(cls, points: npt.ArrayLike, loads: npt.ArrayLike | None = None) -> 'Support':
-        """Rest the object on points.
+        """Rest the object on points, with loads that are known.
+
+        Where the centre of mass is known instead, `carrying` has its loads.
 
         Parameters
         ----------

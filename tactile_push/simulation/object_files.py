@@ -5,7 +5,8 @@
 An object: {"outline": OUTLINE, "centre_of_mass": [x, y]}, the centre of mass if it is known, with
 one of the outlines {"kind": "polygon", "vertices": [[x, y], ...]}, {"kind": "circle", "radius": R},
 {"kind": "ellipse", "semi_axes": [a, b]}, {"kind": "smooth", "points": [[x, y], ...]}. A support:
-{"points": [[x, y], ...], "loads": [w, ...]}, all loads alike if they are left out.
+{"points": [[x, y], ...], "loads": [w, ...]}. If the loads are left out, they are those under the
+centre of mass, or all alike if that is not known.
 """
 
 import json
@@ -66,13 +67,15 @@ def read_object(file: Path) -> tuple[Outline, tuple[float, float] | None]:
     return made, centre
 
 
-def read_support(file: Path) -> Support:
+def read_support(file: Path, centre_of_mass: tuple[float, float] | None = None) -> Support:
     """Read support points.
 
     Parameters
     ----------
     file : Path
         A JSON file.
+    centre_of_mass : tuple of float, optional
+        Centre of mass (x, y) [m], if it is known, which decides on loads that the file leaves out.
 
     Returns
     -------
@@ -84,7 +87,7 @@ def read_support(file: Path) -> Support:
     OSError
         If the file cannot be read.
     ValueError
-        If the file has another form.
+        If the file has another form, or the object would tip over.
     """
     content = _read(file)
     if 'points' not in content:
@@ -93,7 +96,10 @@ def read_support(file: Path) -> Support:
         points, loads = _checked('points', content['points'], PAIRS), content.get('loads')
         if loads is not None:
             loads = _checked('loads', loads, NUMBERS)
-        return Support.at_points(points, loads)
+        support = Support.at_points(points, loads)
+        if loads is None and centre_of_mass is not None:
+            support = support.carrying(centre_of_mass)
+        return support
     except ValueError as error:
         raise ValueError(f'{file}: {error}') from None
 

@@ -441,15 +441,43 @@ def test_a_circle_of_support_lies_about_the_centre_of_mass_of_the_file(simulate,
     assert simulate('--object', block, '--d0-mm', -29, *options)['d'][0] == pytest.approx(-0.029)
 
 
-def test_a_centre_of_mass_over_the_support_changes_nothing_else(simulate, write):
-    # The motion depends on the centre of friction alone, II.A.
-    options = ('--support', write(TRIPOD, 'support.json'), '--steps', 30)
+@pytest.mark.parametrize(
+    ('support', 'c'),
+    [
+        # By levers the legs bear 1/8, 3/8 and 1/2 of the weight.
+        (
+            {'points': TRIPOD['points']},
+            math.hypot(0.025, 0.02) / 8.0
+            + math.hypot(0.015, 0.02) * 3.0 / 8.0
+            + math.hypot(0.005, 0.02) / 2.0,
+        ),
+        # Springs on the corners bear 1/4 + x 0.005/0.05^2.
+        (
+            'corners',
+            2.0 * math.hypot(0.03, 0.02375) * 0.2 + 2.0 * math.hypot(0.02, 0.02375) * 0.3,
+        ),
+    ],
+)
+def test_the_weight_decides_on_loads_that_are_not_given(simulate, write, support, c):
+    if isinstance(support, dict):
+        support = write(support, 'support.json')
 
-    run = simulate('--object', write(polygon(BLOCK, centre_of_mass=[0.005, 0.0])), *options)
+    run = simulate(
+        *('--object', write(polygon(BLOCK, centre_of_mass=[0.005, 0.0]))),
+        *('--support', support, '--steps', 3, '--d0-mm', 0),
+    )
 
-    plain = simulate('--object', write(polygon(BLOCK)), *options)
-    assert (run['theta'] == plain['theta']).all()
-    assert (run['x'] == plain['x']).all()
+    assert run['c'] == pytest.approx(c, rel=1e-9)
+    assert contact_offset(run)[1] == pytest.approx(-0.02375, abs=1e-12)
+
+
+def test_loads_that_do_not_carry_the_weight_are_refused(refused, write):
+    line = refused(
+        *('--object', write(polygon(BLOCK, centre_of_mass=[0.005, 0.0]))),
+        *('--support', write(TRIPOD, 'support.json')),
+    )
+
+    assert 'support: expected loads that carry a weight at (0.005, 0.0) m, got loads about ' in line
 
 
 @pytest.mark.parametrize('surface', ['ellipsoid', 'exact'])

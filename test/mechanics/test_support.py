@@ -412,6 +412,51 @@ def test_a_density_may_be_one_number():
     assert support.f_max == pytest.approx(2.0 * math.pi, rel=1e-9)
 
 
+def test_a_support_that_carries_a_weight_has_its_centre_and_the_loads_of_statics():
+    support = Support.at_points([(0.0, 0.0), (0.04, 0.0), (0.0, 0.03)], [5.0, 5.0, 2.0])
+
+    carrying = support.carrying((0.01, 0.01))
+
+    # By levers: 1/4 of the weight at the right, 1/3 at the top.
+    assert carrying.loads == pytest.approx([5.0, 3.0, 4.0], abs=1e-9)
+    assert carrying.centre == (0.01, 0.01)
+    assert carrying.f_max == pytest.approx(12.0)
+    arms = [math.hypot(0.01, 0.01), math.hypot(0.03, 0.01), math.hypot(0.01, 0.02)]
+    assert carrying.m_max == pytest.approx(np.dot([5.0, 3.0, 4.0], arms), rel=1e-9)
+
+
+def test_a_weight_in_its_place_changes_nothing():
+    for support in families(Outline.polygon(TRIANGLE), 50):
+        same = support.carrying(support.centre)
+        assert same.loads == pytest.approx(support.loads, rel=1e-9)
+        assert same.m_max == pytest.approx(support.m_max, rel=1e-9)
+
+
+def test_an_even_pressure_becomes_a_linear_one_under_a_weight_beside_the_middle():
+    # By hand: with the density 1 + t x/a the centre moves by t a/3, a half the width.
+    width, height = BLOCK
+    outline = Outline.rectangle(width, height)
+    linear = Support.density(outline, lambda x, y: 1.0 + 0.6 * x / (width / 2.0))
+
+    carrying = Support.uniform(outline).carrying((0.1 * width, 0.0))
+
+    assert carrying.c == pytest.approx(linear.c, rel=2e-4)
+    x = carrying.points[:, 0]
+    even = carrying.loads / Support.uniform(outline).loads
+    assert even == pytest.approx(1.0 + 0.6 * x / (width / 2.0), rel=0.01)
+
+
+def test_the_loads_of_measured_three_point_supports_are_those_of_statics():
+    # Zhou et al. 2016: a triangle on three screws, its centre of mass in its centroid.
+    for points, loads in (
+        ([(-0.04, -0.04), (0.04, -0.02), (-0.04, 0.08)], [0.25, 0.5, 0.25]),
+        ([(-0.04, -0.04), (0.08, -0.04), (-0.04, 0.08)], [1 / 3, 1 / 3, 1 / 3]),
+    ):
+        assert Support.at_points(points).carrying((0.0, 0.0)).loads == pytest.approx(
+            loads, abs=1e-9
+        )
+
+
 def families(outline, count):
     yield Support.uniform(outline, count)
     yield Support.rim(outline, count)

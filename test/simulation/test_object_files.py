@@ -126,6 +126,25 @@ def test_a_support_has_its_loads_and_the_centre_and_moment_that_follow(write):
     assert support.c == pytest.approx((loads * arms).sum() / 8.0, rel=1e-14)  # (1)
 
 
+def test_points_without_loads_bear_what_the_centre_of_mass_asks_for(write):
+    points = [[0.0, 0.0], [0.03, 0.0], [0.0, 0.04]]
+
+    support = read_support(write({'points': points}), (0.015, 0.01))
+
+    assert support.loads == pytest.approx([0.25, 0.5, 0.25], abs=1e-9)  # by levers
+
+
+def test_given_loads_stay_whatever_the_centre_of_mass(write):
+    content = {'points': [[0.0, 0.0], [0.03, 0.0], [0.0, 0.04]], 'loads': [1.0, 2.0, 5.0]}
+
+    assert read_support(write(content), (0.0, 0.0)).loads == pytest.approx([1.0, 2.0, 5.0])
+
+
+def test_points_that_an_object_tips_over_are_refused(write):
+    with pytest.raises(ValueError, match='centre_of_mass: expected a point over the support'):
+        read_support(write({'points': [[0.0, 0.0], [0.03, 0.0], [0.0, 0.04]]}), (0.03, 0.03))
+
+
 def test_points_without_loads_bear_alike(write):
     points = [[0.0, 0.0], [0.03, 0.0], [0.0, 0.03]]
 
