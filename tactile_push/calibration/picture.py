@@ -56,7 +56,7 @@ def draw_camera(calibration: 'CameraCalibration', reference: 'Reference', file: 
     for elevation in RINGS:
         ring = camera.pixels(directions_of(around, np.full_like(around, math.radians(elevation))))
         image.plot(*ring.T, color=ORANGE, linewidth=0.6)
-    image.plot(*camera.pixels(known).T, '+', color=BLUE, markersize=5, label='known')
+    image.plot(*camera.pixels(known).T, '+', color='white', markersize=7, label='known')
     image.plot(*calibration.pixels.T, 'x', color=RED, markersize=4, label='seen')
     image.set_xlim(0, camera.width)
     image.set_ylim(camera.height, 0)
@@ -100,7 +100,9 @@ def _draw_errors(axes: Axes, known: Array, found: Array, errors: Array) -> None:
     axes.set_ylim(-100.0, 100.0)
     axes.set_xlabel('from the pole to the left [°]')
     axes.set_ylabel('from the pole up [°]')
-    axes.set_title(f'errors, {scale:.3g} times: RMS {size:.2f}°, largest {largest:.2f}°')
+    for set_ticks in (axes.set_xticks, axes.set_yticks):
+        set_ticks(range(-90, 91, 30))
+    axes.set_title(f'errors × {scale:.3g}: RMS {size:.2f}°, largest {largest:.2f}°')
 
 
 def _directions(touches: Sequence[KnownTouch]) -> Array:
