@@ -106,6 +106,7 @@ def command_parser() -> tuple[Parser, Commands]:
         calibrate,
         demo,
         diff,
+        doctor,
         estimate,
         figures,
         info,
@@ -122,7 +123,7 @@ def command_parser() -> tuple[Parser, Commands]:
         description='Turn and locate objects by pushing them with one tactile finger.',
     )
     commands = parser.add_subparsers(required=True, metavar='COMMAND', dest='command')
-    runs = demo, simulate, figures, watch, record, play
+    runs = demo, simulate, figures, doctor, watch, record, play
     for command in (*runs, replay, estimate, info, diff, report, calibrate):
         command.add(commands)
     return parser, commands

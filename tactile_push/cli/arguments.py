@@ -5,6 +5,7 @@
 import argparse
 import math
 import os
+import re
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -18,6 +19,7 @@ BAG: dict[str, Any] = {
     'metavar': 'BAG',
     'help': 'folder of a bag, or one of its files',
 }
+NAMESPACE = re.compile(r'[A-Za-z]\w*(/[A-Za-z]\w*)*', re.ASCII)
 PICTURES = ('.png', '.svg', '.pdf')
 
 
@@ -159,6 +161,14 @@ def port(text: str) -> int:
     if not (text.isascii() and text.isdigit() and len(text) <= 5 and int(text) <= 65535):
         raise argparse.ArgumentTypeError(f'expected a whole number, 0 to 65535, got {text}')
     return int(text)
+
+
+def namespace(text: str) -> str:
+    """Read a ROS namespace, and return it with the slash that may be missing."""
+    name = text.strip('/')
+    if not NAMESPACE.fullmatch(name):
+        raise argparse.ArgumentTypeError(f'expected a namespace such as left, got {text}')
+    return f'/{name}'
 
 
 def edge(text: str) -> int:

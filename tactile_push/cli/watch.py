@@ -4,7 +4,7 @@
 
 import argparse
 
-from tactile_push.cli.arguments import Commands, number, port
+from tactile_push.cli.arguments import Commands, namespace, number, port
 from tactile_push.cli.become import become
 from tactile_push.interface import LIVE_PAGE
 from tactile_push.needs_aiohttp import aiohttp_is_missing
@@ -41,7 +41,12 @@ def add(commands: Commands) -> None:
         metavar='S',
         help=f'how far back the page shows (default: {DEFAULTS.history:g})',
     )
-    option('--namespace', metavar='NAME', help='namespace of the finger, such as left')
+    option(
+        '--namespace',
+        type=namespace,
+        metavar='NAME',
+        help='namespace of the finger, such as left',
+    )
     watch.set_defaults(run=_watch, ros=True)
 
 
@@ -49,5 +54,5 @@ def _watch(options: argparse.Namespace) -> int:
     if aiohttp_is_missing('tactile_push watch'):
         return 2
     given = {name: getattr(options, name) for name in OPTIONS}
-    place = [] if options.namespace is None else ['-r', f'__ns:=/{options.namespace.strip("/")}']
+    place = [] if options.namespace is None else ['-r', f'__ns:={options.namespace}']
     become(LIVE_PAGE, {name: value for name, value in given.items() if value is not None}, place)
