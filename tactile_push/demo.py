@@ -24,6 +24,8 @@ from tactile_push.interface import (
     CONTACT_GEOMETRY,
     CONTROLLER_STATE,
     EXPERIMENT,
+    FINGER_SERVO,
+    JOINT_VELOCITIES,
     LIVE_PAGE,
     PUSH_CONTROLLER,
     SENSING_STATE,
@@ -155,6 +157,7 @@ def _run_rig(
             'sensor_rate': SENSOR_RATE,
             'publish_clock': True,
             'real_time_factor': REAL_TIME_FACTOR,
+            'commands': JOINT_VELOCITIES,
             **kind.plant,
         }
         simulated = {'use_sim_time': True}
@@ -164,6 +167,7 @@ def _run_rig(
             nodes.start(kind.node, {**read_from, **kind.parameters, **simulated})
             nodes.start(CONTACT_GEOMETRY, simulated, config=config)
             nodes.start(PUSH_CONTROLLER, {'autostart': False, **simulated}, config=config)
+            nodes.start(FINGER_SERVO, simulated, config=config)
             nodes.start(ACTIVE_SENSING, {**kind.sensing, **simulated}, config=config)
             nodes.start(EXPERIMENT, {'bag': str(bag), 'steps': STEPS, **simulated})
             if page is not None:

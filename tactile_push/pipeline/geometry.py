@@ -32,13 +32,16 @@ class Felt(NamedTuple):
     refusal: str  #: why it was refused, one of `REFUSALS`; empty if it was not
 
     def outputs(self) -> Iterator[Output]:
-        """Yield the messages: the contact, if there is one, and what became of the reading."""
-        theta = math.nan
-        if self.contact is not None:
-            theta = self.contact.theta
-            yield CONTACT, pose_fields(self.stamp, self.contact.x, self.contact.y, theta)
+        """Yield the messages: what became of the reading, and the contact, if there is one.
+
+        The contact comes last: wherever a recording ends, a command that followed from a contact
+        is then in it with the reading.
+        """
+        theta = math.nan if self.contact is None else self.contact.theta
         values = reading_values(self.reading, self.joint_angle, theta, self.refusal)
         yield GEOMETRY_STATE, joint_state_fields(self.stamp, values)
+        if self.contact is not None:
+            yield CONTACT, pose_fields(self.stamp, self.contact.x, self.contact.y, theta)
 
 
 class Geometry:

@@ -89,12 +89,13 @@ def test_reading_that_tells_of_no_contact_is_refused_with_its_reason(
     assert math.isnan(values['theta'])
 
 
-def test_contact_comes_before_what_became_of_the_reading(geometry):
+def test_contact_comes_after_what_became_of_the_reading(geometry):
+    """A recording that has what followed from a contact then has the reading, wherever it ends."""
     geometry.joint_states((1, 5), JOINTS, [0.0, 0.0])
-    (contact_topic, contact), (state_topic, state) = geometry.tactile(
+    (state_topic, state), (contact_topic, contact) = geometry.tactile(
         (1, 5), ANGLES, POLE
     ).outputs()
-    assert (contact_topic, state_topic) == (CONTACT, GEOMETRY_STATE)
+    assert (state_topic, contact_topic) == (GEOMETRY_STATE, CONTACT)
     stamp = {'sec': 1, 'nanosec': 5}
     assert contact['header'] == {'stamp': stamp, 'frame_id': FINGER_DISK}
     assert contact['pose']['position'] == pytest.approx({'x': 0.0, 'y': R})

@@ -6,20 +6,33 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from support.interface_checks import topics_as_declared
+from support.servoed_loop import servoed_theta
 from support.turning_tip import L, R, X, slope, step_response
 from support.waiting import wait_for
 from tactile_push.bags import BagReader
 from tactile_push.cli import main
+from tactile_push.control import PUSHING
 from tactile_push.demo import STEPS
-from tactile_push.nodes.experiment import AWAITED
+from tactile_push.interface import (
+    CLOCK,
+    CONTACT,
+    GEOMETRY_STATE,
+    PARAMETER_EVENTS,
+    RECORDED,
+    WRENCH,
+)
+from tactile_push.pipeline.stamps import stamp_of
 from tactile_push.replay import replay
+from tactile_push.simulation import JointRig, paper_block
 
 COMMAND = [sys.executable, '-m', 'tactile_push.cli', 'demo', '--json']
 
@@ -59,11 +72,16 @@ def test_demo_settles_both_rigs_and_leaves_a_picture_and_bags(tmp_path: Path):
     assert (out / 'history.png').read_bytes().startswith(b'\x89PNG')
     for name in rigs:
         assert (out / name / 'metadata.yaml').exists()
-        assert {*AWAITED} <= topics_as_declared(out / name)
+        assert {*RECORDED} - {CLOCK, PARAMETER_EVENTS, WRENCH} <= topics_as_declared(out / name)
         with BagReader(out / name) as bag:
             (comparison,) = replay(bag, out=tmp_path / f'{name} again')
         assert len(comparison.ticks) > 400
         assert not comparison.different()
+        _readings_are_sent_before_their_contacts(out / name)
+        if name == 'block':
+            theta = np.array([tick.theta for tick in comparison.ticks if tick.state == PUSHING])
+            same = JointRig(replace(paper_block(), tip_turns=True))
+            assert np.degrees(np.abs(theta - servoed_theta(same, len(theta)))).max() < 0.5
         assert len(comparison.sensed) > 400
         again = str(tmp_path / f'{name} again')
         sensed = ('/active_sensing/state', '/object_pose')
@@ -73,6 +91,18 @@ def test_demo_settles_both_rigs_and_leaves_a_picture_and_bags(tmp_path: Path):
         assert figures['inside_guaranteed'] == 1.0
         assert figures['inside'] > 0.9
         assert figures['contradictions'] == figures['forgotten'] == []
+
+
+def _readings_are_sent_before_their_contacts(bag: Path) -> None:
+    """Check that, wherever the recording ended, it would have the readings that a tick used."""
+    readings: dict[tuple[int, int], int] = {}
+    with BagReader(bag) as reader:
+        for message in reader.messages([f'/{CONTACT}', f'/{GEOMETRY_STATE}']):
+            stamp = stamp_of(reader.decode(message))
+            if message.topic == f'/{GEOMETRY_STATE}':
+                readings.setdefault(stamp, message.publish_time)
+            elif readings:
+                assert readings[stamp] <= message.publish_time
 
 
 def _estimated(bag: Path) -> list[dict[str, Any]]:

@@ -2,26 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
-from itertools import islice
 
 import numpy as np
 import pytest
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
-from tactile_push.control import STATES, PushControl, PushLaw, settle_step
+from support.servoed_loop import servoed_theta
+from tactile_push.control import STATES, PushLaw, settle_step
 from tactile_push.interface import CAMERA, FORCE_TORQUE, SERVO_COMMANDS
-from tactile_push.parameters import FingerServoParameters, MujocoPlantParameters
-from tactile_push.parameters.finger_servo import make_servo
+from tactile_push.parameters import MujocoPlantParameters
 from tactile_push.parameters.mujoco_plant import mujoco_config
-from tactile_push.simulation import (
-    JointRig,
-    control_periods,
-    experiment,
-    paper_block,
-    paper_disk,
-    servoed,
-)
+from tactile_push.simulation import experiment, paper_block, paper_disk
 from tactile_push.testing import Rig, field, seconds
 
 STEPS, FEW_STEPS = 260, 60
@@ -82,33 +74,18 @@ def test_loop_with_a_noisy_sensor_turns_the_block_along_the_trajectory(rig: Rig,
     assert 'normal_force' in rig.tactile[-1].name
 
 
-def test_loop_through_the_servo_goes_along_the_trajectory_without_clocks_and_processes(rig: Rig):
+def test_loop_on_mujoco_through_the_servo_goes_along_the_trajectory_without_clocks_and_processes(
+    rig: Rig,
+):
+    pytest.importorskip('mujoco', reason="pip install 'tactile_push[mujoco]'")
+    from tactile_push.simulation.mujoco_joint_rig import MujocoJointRig
+
     velocities = rig.observer.hear(Float64MultiArray, SERVO_COMMANDS)
-    rig.start('block', servo=True)
+    rig.start('block', servo=True, simulator='mujoco_plant')
     states = pushed(rig, FEW_STEPS)
     theta = np.array([field(m, 'theta') for m in states])
-    same = JointRig(replace(paper_block(), tip_turns=True))
-    move = servoed(same, make_servo(FingerServoParameters()))
-    control = PushControl(PushLaw(0.05, 5.0, math.radians(-10.0)), 0.005, 0.1)
-    periods = islice(control_periods(same, control, 2, 0, move), len(states))
-    expected = np.array([tick.theta for tick in periods])
+    same = MujocoJointRig(*mujoco_config(MujocoPlantParameters(mu_c=0.5)))
     assert theta[0] - theta[-1] > math.radians(5.0)
-    assert np.degrees(np.abs(theta - expected)).max() < 0.5
+    assert np.degrees(np.abs(theta - servoed_theta(same, len(states)))).max() < 0.5
     assert field(states[-1], 'ticks_lost') == 0.0
     assert np.isfinite([message.data for message in velocities]).all()
-
-
-def test_loop_on_mujoco_goes_along_the_trajectory_without_clocks_and_processes(rig: Rig):
-    pytest.importorskip('mujoco', reason="pip install 'tactile_push[mujoco]'")
-    from tactile_push.simulation.mujoco_rig import MujocoRig
-
-    rig.start('block', simulator='mujoco_plant')
-    states = pushed(rig, FEW_STEPS)
-    theta = np.array([field(m, 'theta') for m in states])
-    same = MujocoRig(*mujoco_config(MujocoPlantParameters(mu_c=0.5)))
-    control = PushControl(PushLaw(0.05, 5.0, math.radians(-10.0)), 0.005, 0.1)
-    periods = islice(control_periods(same, control, 2, 0), len(states))
-    expected = np.array([tick.theta for tick in periods])
-    assert theta[0] - theta[-1] > math.radians(5.0)
-    assert np.degrees(np.abs(theta - expected)).max() < 0.5
-    assert field(states[-1], 'ticks_lost') == 0.0
