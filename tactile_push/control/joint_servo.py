@@ -32,10 +32,11 @@ from tactile_push.control.states import (
     STOPPED,
 )
 
-# Time after which a difference between commanded and measured motion is forgotten [s]; picked. A
-# joint that lags by 0.15 s is then off by 0.15 s of its velocity, one that stands by a whole second
-# of it.
-FORGET = 1.0
+# A difference between commanded and measured motion is forgotten over so long a commanded way [m],
+# and at rest after this time [s]; picked. By the way, a drive that stands is noticed however slowly
+# it is commanded, and one that is a tenth too slow is off by a tenth of the way. At rest there is
+# no way, and what moves the finger slowly is no drive that does not follow.
+FORGET_WAY, FORGET_TIME = 0.01, 1.0
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,7 @@ class ServoLimits:
     line_gain: float = 5.0  #: rate at which the disk goes back to its line across the belt [1/s]
     command_timeout: float = 0.5  #: the joints stand after this long without a command [s]
     joint_state_timeout: float = 0.2  #: the joints stand after this long without joint states [s]
-    #: distance between where the disk is and where the commands of the last second should have
+    #: distance between where the disk is and where the commands of the last centimetre should have
     #: brought it, beyond which the velocity controller counts as one that does not follow [m]
     follow_tolerance: float = 0.002
 
@@ -230,10 +231,11 @@ class JointServo:
 
     def _compare(self, moved: Sequence[float], passed: float) -> None:
         """Compare how the joints have moved with what they were asked for."""
-        kept = math.exp(-passed / FORGET)
+        way = passed * math.hypot(*disk_velocity(self._arm.levers(self._joints), self._rates))
+        kept = math.exp(-way / FORGET_WAY if way > 0.0 else -passed / FORGET_TIME)
         self._behind = tuple(
-            kept * behind + rate * passed - way
-            for behind, rate, way in zip(self._behind, self._rates, moved, strict=True)
+            kept * behind + rate * passed - done
+            for behind, rate, done in zip(self._behind, self._rates, moved, strict=True)
         )
         if not self._deviation <= self.limits.follow_tolerance:
             self._hold(DOES_NOT_FOLLOW)

@@ -55,7 +55,7 @@ class FingerServoParameters(NodeParameters):
         'the joints stand after this long without joint states', 0.01, 10.0)
     follow_tolerance: float = parameter(LIMITS.follow_tolerance, 'm',
         'the finger stops until it is activated anew when its disk is so far from where the '
-        'commands of about a second should have brought it', 1e-4, 1.0)
+        'commands of the last centimetre should have brought it', 1e-4, 1.0)
     rate: float = parameter(50.0, 'Hz',
         'velocities a second at the least; there are new ones at each joint state and command, too',
         10.0, 1000.0, read_only=True)

@@ -120,6 +120,17 @@ def test_before_the_first_command_it_rests_and_knows_no_line(servo):
     assert drive.run(0.001, 1.0).stop_reason == ''
 
 
+def test_a_stop_does_not_move_the_line_and_an_activation_does(servo):
+    drive = Drive(servo)
+    drive.run(0.005, 0.1)
+    drive.run(None, 1.0)
+    drive.joints = list(FINGER.inverse(-0.06, 0.0795))  # pushed away by half a millimetre
+    assert drive.run(0.005, 0.1).line == pytest.approx(0.08)
+    servo.activate(drive.time)
+    drive.joints = list(FINGER.inverse(-0.06, 0.0795))
+    assert drive.run(0.005, 0.1).line == pytest.approx(0.0795)
+
+
 def test_it_stops_exactly_when_the_command_is_older_than_its_timeout(servo):
     drive = Drive(servo)
     drive.run(0.005, 1.0)
@@ -210,6 +221,34 @@ def test_a_finger_that_does_not_follow_is_stopped_until_it_is_activated_anew(ser
     assert said(drive.run(0.005, 1.0)) == (FOLLOWING, '')
 
 
+@pytest.mark.parametrize('v_x', [2e-4, 0.002, 0.0077, 0.02])
+def test_a_drive_that_stands_is_noticed_after_the_same_way_however_slow_it_is_to_be(servo, v_x):
+    drive = Drive(servo)
+    drive.run(v_x, 0.1)
+    drive.obey = lambda rates: (0.0, 0.0)
+    stood = drive.time
+    while drive.run(v_x, PERIOD).state == FOLLOWING:
+        assert drive.time - stood < 0.0025 / v_x
+    # Of a way s that is not gone at all, 1 cm (1 - exp(-s / 1 cm)) is remembered: 2 mm of it.
+    way = 0.01 * math.log(10.0 / 8.0)
+    assert (drive.time - stood) * v_x == pytest.approx(way, abs=2.0 * PERIOD * v_x + 1e-6)
+    assert said(drive.steps[-1]) == (STOPPED, DOES_NOT_FOLLOW)
+
+
+@pytest.mark.parametrize(('share', 'state'), [(0.85, FOLLOWING), (0.75, STOPPED)])
+def test_a_drive_that_is_a_little_slow_follows_on_a_way_of_any_length(servo, share, state):
+    """It is behind by its part of the last centimetre."""
+    drive = Drive(servo, obey=lambda rates: tuple(share * rate for rate in rates))
+    assert drive.run(0.02, 4.0).state == state
+
+
+def test_what_moves_a_finger_slowly_at_rest_is_forgotten(servo):
+    drive = Drive(servo)
+    drive.run(0.0, 0.1)
+    drive.obey = lambda rates: (0.01, 0.0)  # 1 mm/s of the disk
+    assert said(drive.run(0.0, 10.0)) == (FOLLOWING, '')
+
+
 def test_a_joint_that_lags_by_a_control_period_follows(servo):
     velocity = [0.0, 0.0]
 
@@ -220,7 +259,7 @@ def test_a_joint_that_lags_by_a_control_period_follows(servo):
 
     drive = Drive(servo, obey=lag)
     for v_x in (0.0077, -0.0077, 0.0, 0.0077):
-        assert said(drive.run(v_x, 2.0)) == (FOLLOWING, '')
+        assert said(drive.run(v_x, 3.0)) == (FOLLOWING, '')
     # It stays behind by the lag times the change of the velocity, and that is forgotten.
     assert 0.5 * 0.1 * 0.0154 < max(step.deviation for step in drive.steps) < 0.1 * 0.0154
     assert drive.steps[-1].deviation < 0.15 * 0.1 * 0.0077
