@@ -31,7 +31,7 @@ from tactile_push.pipeline import Felt, Output, Stamp, edge_angle
 from tactile_push.pipeline.orientation import quaternion_of_yaw
 from tactile_push.pipeline.stamps import epoch_of, seconds_since, stamp_of
 from tactile_push.replay.comparison import Comparison
-from tactile_push.replay.controller import ReplayedController
+from tactile_push.replay.controller import PATIENCE, ReplayedController
 from tactile_push.replay.geometry import ReplayedGeometry
 from tactile_push.replay.messages import Replayed, Written, nanoseconds, only
 from tactile_push.replay.new_bag import NewBag
@@ -39,8 +39,8 @@ from tactile_push.replay.own_ticks import OwnTicks
 from tactile_push.replay.parameters import FingerParameters
 from tactile_push.replay.sensing import ReplayedSensing
 
-PATIENCE = 2 * 10**9  # after which a recorded command belongs to no tick [ns]: twice a tick's wait
-REMEMBERED = 1000  # control periods whose recorded command has not come; picked, far more than 2 s
+FOREIGN = 2 * PATIENCE  # after which a recorded command belongs to no tick [ns]
+REMEMBERED = 10_000  # control periods whose recorded command has not come; picked, far more
 
 FOLLOWS_CHANGES = (ReplayedGeometry, ReplayedController)
 ALL_FIELDS = frozenset(TOPICS[CONTROLLER_STATE].field_names)
@@ -135,11 +135,15 @@ class Finger:
 
     def finish(self) -> None:
         """Make the ticks that still wait, and write what is left as it was recorded."""
+        for _, message in self._as_recorded:
+            if message.topic == f'{self._namespace}/{CONTACT}':  # which a tick may have used
+                self._take_contact(message)
+            else:
+                self._write([message])
         self._conclude(self._controller.finish())
         self._keep_commands(None)
         if self._sensing is not None:
             self._write(self._sensing.finish())
-        self._write(message for _, message in self._as_recorded)
 
     def _take_reading(self, geometry: ReplayedGeometry, message: Message) -> None:
         self._feel(geometry.tactile(self._decode(message)), message.log_time)
@@ -178,7 +182,7 @@ class Finger:
             self._commands[stamp] = message
         elif not made:
             self._write([message])
-        self._keep_commands(message.log_time - PATIENCE)
+        self._keep_commands(message.log_time - FOREIGN)
 
     def _take_sensed(
         self, take: Callable[[Message, Any], Iterable[Written]], message: Message
