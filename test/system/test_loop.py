@@ -61,7 +61,11 @@ def test_loop_with_a_noisy_sensor_turns_the_block_along_the_trajectory(rig: Rig,
     # Its time waits for a contact up to a hundred times a second, so it has to be patient.
     rig.start('block', sensor=sensor, command_timeout=10.0)
     states = pushed(rig, FEW_STEPS)
-    # The true angle at each step, and what the sensor makes of it.
+    # The true angle at each step, which a busy machine may hear of later, and what the sensor makes
+    # of it.
+    rig.observer.wait_for(
+        lambda: seconds(rig.truth[-1]) >= seconds(states[-1]), 'the truth about the last step'
+    )
     moments = [seconds(m) for m in rig.truth]
     steps = np.searchsorted(moments, [seconds(m) for m in states], side='right') - 1
     true = np.array([field(m, 'theta') for m in rig.truth])[steps]
