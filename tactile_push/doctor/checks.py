@@ -20,6 +20,7 @@ from tactile_push.doctor.messages import (
     nodes_are_well,
     parameters_agree,
 )
+from tactile_push.doctor.noise import gains_bear_the_noise
 from tactile_push.doctor.snapshot import Snapshot
 
 CHECKS = (
@@ -35,6 +36,7 @@ CHECKS = (
     messages_are_in_order,
     joints_are_there,
     parameters_agree,
+    gains_bear_the_noise,
     nodes_are_well,
 )
 

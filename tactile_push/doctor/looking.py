@@ -7,6 +7,7 @@ import os
 import time
 from array import array
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import partial
 from importlib import import_module
 from typing import Any, TypeVar
@@ -46,6 +47,8 @@ LISTENED = (TACTILE, JOINT_STATES, CONTACT, COMMAND, CONTROLLER_STATE, SERVO_STA
 DISCOVERY = 2.0  # in which nodes find each other, usually within 1 s [s]
 LISTENING = 3.0  # for so long the doctor listens [s]; each node reports its health once a second
 PATIENCE = 3.0  # for answers that did not come meanwhile [s]
+STALE = 0.3  # in which readings from before a touch are heard and forgotten [s]
+TOUCHED = 1.0  # for so long the doctor listens to a touch [s]
 TURN = 0.05  # between looks at who has answered [s]
 ASK_AGAIN = 1.0  # after which a missing answer is lost [s]
 ANYTHING = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -66,6 +69,49 @@ def look(namespace: str = '') -> Snapshot:
     Snapshot
         What was seen.
     """
+    with _joined(namespace) as (node, executor):
+        return _Look(node, executor).snapshot()
+
+
+@contextmanager
+def hearing_readings(
+    namespace: str = '',
+) -> Iterator[Callable[[], list[tuple[float, float]]]]:
+    """Listen to a sensor whenever somebody has touched it.
+
+    Parameters
+    ----------
+    namespace : str, optional
+        Namespace of the finger, '' for the root.
+
+    Yields
+    ------
+    callable
+        Listens for a second, and returns azimuth and elevation of each reading in it [rad].
+    """
+    with _joined(namespace) as (node, executor):
+        azimuth, elevation = TOPICS[TACTILE].field_names[:2]
+        listener = _Listener(node, TACTILE, _Time(node).now)
+
+        def spin(seconds: float) -> None:
+            end = time.monotonic() + seconds
+            while time.monotonic() < end:
+                executor.spin_once(timeout_sec=TURN)
+
+        def hear() -> list[tuple[float, float]]:
+            spin(STALE)
+            listener.begin()
+            spin(TOUCHED)
+            heard = listener.heard(TOUCHED)
+            return [(v.get(azimuth, math.nan), v.get(elevation, math.nan)) for v in heard.values]
+
+        spin(DISCOVERY)
+        yield hear
+
+
+@contextmanager
+def _joined(namespace: str) -> Iterator[tuple[Node, SingleThreadedExecutor]]:
+    """Take part in the graph by a node that publishes nothing."""
     context = Context()
     rclpy.init(context=context, signal_handler_options=SignalHandlerOptions.NO)
     node = Node(
@@ -78,7 +124,7 @@ def look(namespace: str = '') -> Snapshot:
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
     try:
-        return _Look(node, executor).snapshot()
+        yield node, executor
     finally:
         executor.shutdown()
         node.destroy_node()

@@ -10,7 +10,7 @@ from geometry_msgs.msg import TwistStamped
 from lifecycle_msgs.msg import Transition
 
 from tactile_push.doctor import MISSING, RIGHT, WRONG, findings
-from tactile_push.doctor.looking import look
+from tactile_push.doctor.looking import hearing_readings, look
 from tactile_push.interface import (
     CLOCK,
     COMMAND,
@@ -27,7 +27,7 @@ from tactile_push.interface import (
     TACTILE,
     TOPICS,
 )
-from tactile_push.testing import NodeProcesses, Observer, Rig
+from tactile_push.testing import NodeProcesses, Observer, Rig, field
 
 LEFT = 'left'
 LOOP = {SENSOR_DRIVER, CONTACT_GEOMETRY, PUSH_CONTROLLER, FINGER_SERVO, SIM_PLANT}
@@ -110,6 +110,19 @@ def test_finger_that_pushes_is_seen_whole(rig, looked):
 
 def _who(seen, name):
     return [node for node, values in seen.parameters.items() if name in values]
+
+
+def test_readings_of_a_touch_are_those_that_the_sensor_publishes(rig, monkeypatch):
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(rig.nodes.domain))
+    rig.tactile.clear()
+    with hearing_readings(f'/{LEFT}') as hear:
+        first, second = hear(), hear()
+    rig.observer.wait_for(
+        lambda: second[-1] in [(field(m, 'azimuth'), field(m, 'elevation')) for m in rig.tactile],
+        'the last reading that the doctor heard',
+    )
+    assert len(first) > 5
+    assert first[0] not in second  # it was before the second touch
 
 
 def test_faults_of_real_nodes_are_named(rig, looked):
