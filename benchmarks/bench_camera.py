@@ -31,19 +31,19 @@ CAMERA = DomeCamera(
 def raw(image):
     """Return what `image` has of a picture, as rclpy has it."""
     height, width = image.shape
-    return 'mono8', height, width, width, array('B', image.tobytes())
+    return '', 'mono8', height, width, width, array('B', image.tobytes())
 
 
 def coloured(image):
     """Return the same in colours."""
     height, width = image.shape
     data = np.repeat(image[..., None], 3, axis=2)
-    return 'rgb8', height, width, 3 * width, array('B', data.tobytes())
+    return '', 'rgb8', height, width, 3 * width, array('B', data.tobytes())
 
 
 def compressed(image):
     """Return the same as JPEG."""
-    return (array('B', cv2.imencode('.jpg', image)[1].tobytes()),)
+    return '', array('B', cv2.imencode('.jpg', image)[1].tobytes())
 
 
 @pytest.mark.parametrize('kind', [raw, coloured, compressed])

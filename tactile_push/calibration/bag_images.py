@@ -9,7 +9,12 @@ from typing import Any
 
 from tactile_push.bags import BagReader
 from tactile_push.bags.fields import TEXT, WHOLE
-from tactile_push.calibration.bag_touches import check_count, only_topic, touches_in_order
+from tactile_push.calibration.bag_touches import (
+    check_count,
+    only_frame,
+    only_topic,
+    touches_in_order,
+)
 from tactile_push.calibration.camera_images import TouchImages
 from tactile_push.devices.image_bytes import decoded_image, grey_image
 from tactile_push.interface import COMPRESSED_IMAGE_TYPE, IMAGE_TYPE
@@ -20,13 +25,14 @@ from tactile_push.tactile.touched_region import LEAST_PIXELS, Image, mean_image,
 LEAST_IMAGES = 3  # of a touch: fewer are a flicker; picked
 FIELDS = {
     IMAGE_TYPE: {
+        'header.frame_id': TEXT,
         'height': WHOLE,
         'width': WHOLE,
         'encoding': TEXT,
         'step': WHOLE,
         'data[]': WHOLE,
     },
-    COMPRESSED_IMAGE_TYPE: {'data[]': WHOLE},
+    COMPRESSED_IMAGE_TYPE: {'header.frame_id': TEXT, 'data[]': WHOLE},
 }
 
 
@@ -56,7 +62,8 @@ def images_in_bag(bag: BagReader, table: Path, threshold: float) -> TouchImages:
         If the table cannot be read.
     """
     touches = touches_in_order(table)
-    images = _images(bag)
+    frames: set[str] = set()
+    images = _images(bag, frames)
     first = list(islice(images, IMAGES_OF_REFERENCE))
     if len(first) < IMAGES_OF_REFERENCE:
         raise ValueError(f'expected {IMAGES_OF_REFERENCE} images or more, got {len(first)}')
@@ -73,7 +80,7 @@ def images_in_bag(bag: BagReader, table: Path, threshold: float) -> TouchImages:
         of_touch = []
     check_count(table, touches, len(found))
     names = [f'touch {number}' for number in range(1, len(touches) + 1)]
-    return TouchImages(reference, found, touches, names)
+    return TouchImages(reference, found, touches, names, only_frame(frames))
 
 
 def image_of(type_name: str, content: Any) -> Image:
@@ -100,12 +107,13 @@ def image_of(type_name: str, content: Any) -> Image:
     return grey_image(content.encoding, *shape, content.data)
 
 
-def _images(bag: BagReader) -> Iterator[Image]:
-    """Yield the images of a bag, which are of one size; those that tell nothing are left out."""
+def _images(bag: BagReader, frames: set[str]) -> Iterator[Image]:
+    """Yield the images of a bag, which are of one size, and add their frames to a set."""
     topic = only_topic(bag, FIELDS, 'images')
     size = None
     for message in bag.messages([topic.name]):
         content = bag.decode(message)
+        frames.add(content.header.frame_id)
         try:
             image = image_of(topic.type_name, content)
         except ReadingRejectedError as reason:

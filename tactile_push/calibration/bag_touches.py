@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What bags of touches have in common, whatever the sensor."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 
 from tactile_push.bags import BagReader
@@ -75,3 +75,26 @@ def check_count(table: Path, touches: Sequence[KnownTouch], found: int) -> None:
     """
     if found != len(touches):
         raise ValueError(f'{table}: expected {found} touches as in the bag, got {len(touches)}')
+
+
+def only_frame(frames: Collection[str]) -> str:
+    """Return the frame of all messages.
+
+    Parameters
+    ----------
+    frames : collection of str
+        Frames of the messages, each once.
+
+    Returns
+    -------
+    str
+        The frame; '' if there are no messages.
+
+    Raises
+    ------
+    ValueError
+        If there are several, so that the messages are of several sensors.
+    """
+    if len(frames) > 1:
+        raise ValueError(f'expected messages in one frame, got {", ".join(sorted(frames))}')
+    return next(iter(frames), '')

@@ -10,15 +10,21 @@ from typing import Any
 import numpy as np
 
 from tactile_push.bags import BagReader
-from tactile_push.bags.fields import NUMBER
-from tactile_push.calibration.bag_touches import check_count, only_topic, touches_in_order
+from tactile_push.bags.fields import NUMBER, TEXT
+from tactile_push.calibration.bag_touches import (
+    check_count,
+    only_frame,
+    only_topic,
+    touches_in_order,
+)
 from tactile_push.calibration.touch_table import KnownTouch
 from tactile_push.interface import WRENCH_TYPE
 from tactile_push.tactile.sphere import Array
 from tactile_push.tactile.wrench_reader import LEAST_OF_A_TARE, WrenchSensing
 
 PRESSED = 0.5  # of a touch's greatest force: weaker wrenches of it do not count
-FIELDS = {f'wrench.{part}.{axis}': NUMBER for part in ('force', 'torque') for axis in 'xyz'}
+NUMBERS = [f'wrench.{part}.{axis}' for part in ('force', 'torque') for axis in 'xyz']
+FIELDS = {'header.frame_id': TEXT, **dict.fromkeys(NUMBERS, NUMBER)}
 
 
 @dataclass(frozen=True)
@@ -28,6 +34,7 @@ class TouchWrenches:
     forces: Array  #: in the sensor's axes, shape (n, 3) [N]
     moments: Array  #: about its origin, shape (n, 3) [N m]
     touches: list[KnownTouch]  #: where each is
+    frame: str  #: of the sensor; '' if it has none
 
 
 def wrenches_in_bag(bag: BagReader, table: Path) -> TouchWrenches:
@@ -53,7 +60,7 @@ def wrenches_in_bag(bag: BagReader, table: Path) -> TouchWrenches:
         If the table cannot be read.
     """
     touches = touches_in_order(table)
-    times, wrenches = _wrenches(bag)
+    times, wrenches, frame = _wrenches(bag)
     untouched = (
         wrenches[times - times[0] <= WrenchSensing.tare_time * 1e9] if len(times) else wrenches
     )
@@ -66,7 +73,7 @@ def wrenches_in_bag(bag: BagReader, table: Path) -> TouchWrenches:
     found = [_pressed(part) for part in _parts(wrenches) if len(part) >= LEAST_OF_A_TARE]
     check_count(table, touches, len(found))
     means = np.reshape([part.mean(axis=0) for part in found], (-1, 6))
-    return TouchWrenches(means[:, :3], means[:, 3:], touches)
+    return TouchWrenches(means[:, :3], means[:, 3:], touches, frame)
 
 
 def wrench_of(content: Any) -> list[float]:
@@ -86,17 +93,20 @@ def wrench_of(content: Any) -> list[float]:
     return [getattr(part, axis) for part in parts for axis in 'xyz']
 
 
-def _wrenches(bag: BagReader) -> tuple[Array, Array]:
-    """Return log times [ns] and wrenches, shape (n, 6)."""
+def _wrenches(bag: BagReader) -> tuple[Array, Array, str]:
+    """Return log times [ns], wrenches, shape (n, 6), and their frame."""
     topic = only_topic(bag, {WRENCH_TYPE: FIELDS}, 'wrenches')
     times, wrenches = [], []
+    frames = set()
     for message in bag.messages([topic.name]):
         times.append(message.log_time)
-        wrenches.append(wrench_of(bag.decode(message)))
+        content = bag.decode(message)
+        wrenches.append(wrench_of(content))
+        frames.add(content.header.frame_id)
     values = np.reshape(np.array(wrenches, float), (-1, 6))
     if not np.isfinite(values).all():
         raise ValueError(f'{topic.name}: a wrench is not finite')
-    return np.array(times, float), values
+    return np.array(times, float), values, only_frame(frames)
 
 
 def _parts(wrenches: Array) -> Iterator[Array]:

@@ -19,6 +19,7 @@ class TouchImages:
     images: list[Image]  #: one for each touch
     touches: list[KnownTouch]  #: where each is
     names: list[str]  #: of each, for people
+    frame: str = ''  #: of the camera; '' if it is not known
 
 
 def images_in_folder(folder: Path) -> TouchImages:

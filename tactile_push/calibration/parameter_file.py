@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parameter files that a calibration writes, for `--params-file` of the sensor's node."""
 
+import json
 from collections.abc import Mapping
 
 from tactile_push.parameters.ros_file import PARAMS_KEY
@@ -17,7 +18,7 @@ def parameter_file(node: str, values: Mapping[str, object], remarks: list[str]) 
     node : str
         The node that loads it, in any namespace.
     values : mapping of str to object
-        Values by name: numbers, lists of numbers, true and false.
+        Values by name: numbers, lists of numbers, texts, true and false.
     remarks : list of str
         Lines for people.
 
@@ -35,6 +36,8 @@ def _shown(value: object) -> str:
     """Return a value with the decimal point that ROS wants of a real number."""
     if isinstance(value, bool):
         return str(value).lower()
+    if isinstance(value, str):
+        return json.dumps(value)  # which YAML reads as well
     if isinstance(value, list):
         return f'[{", ".join(map(_shown, value))}]'
     if not isinstance(value, float):

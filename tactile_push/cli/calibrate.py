@@ -146,7 +146,7 @@ def _camera(options: argparse.Namespace) -> _Calibrated:
     values = calibrated_values(found.fit.camera, found.reach, found.rim, found.force_scale)
     return _Calibrated(
         CAMERA_SENSOR,
-        {**values, 'threshold': options.threshold},
+        {**values, 'threshold': options.threshold, **_frame(images.frame)},
         *(found.touches, found.names, found.fit.errors),
         lambda plot: draw_camera(found, images.reference, plot),
         [],
@@ -198,11 +198,17 @@ def _wrench(options: argparse.Namespace) -> _Calibrated:
             'tip_xyz': fit.centre.tolist(),
             'tip_rpy': list(rpy),
             'reaction': fit.reaction,
+            **_frame(found.frame),
         },
         *(found.touches, [f'touch {1 + k}' for k in range(len(known))], fit.errors),
         lambda plot: draw_tip(fit, found.touches, plot),
         [f'radius {1e3 * fit.radius:.2f} ± {1e3 * fit.radius_deviation:.2f} mm'],
     )
+
+
+def _frame(frame: str) -> dict[str, str]:
+    """Return the parameter by which a node knows its sensor, if there is something to know."""
+    return {'calibrated_frame': frame} if frame else {}
 
 
 def _table(options: argparse.Namespace, source: str) -> Path:

@@ -20,6 +20,7 @@ from tactile_push.parameters.camera_sensor import (
     make_image_finder,
 )
 from tactile_push.pipeline.stamps import stamp_of
+from tactile_push.tactile.wrench_reader import ANOTHER_FRAME
 
 if TYPE_CHECKING:
     from tactile_push.pipeline.images import Seen
@@ -45,7 +46,7 @@ class CameraSensor(TipSensor[CameraSensorParameters]):
         self._settings = declare(self, CameraSensorParameters, self._take_parameters)
         with refusing():
             self._finder = make_image_finder(self._settings)
-        self._images = Images(self._finder, self._time.seconds)
+        self._images = Images(*(self._finder, self._time.seconds), self._settings.calibrated_frame)
         compressed = self._settings.image_transport == COMPRESSED
         self._topic = COMPRESSED_IMAGE if compressed else IMAGE
         self._kind = CompressedImage if compressed else Image
@@ -64,10 +65,10 @@ class CameraSensor(TipSensor[CameraSensorParameters]):
     def _came_of(self, message: Image | CompressedImage) -> 'Seen':
         stamp = stamp_of(message)
         if self._kind is CompressedImage:
-            return self._images.compressed(stamp, message.data)
+            return self._images.compressed(stamp, message.header.frame_id, message.data)
         return self._images.image(
-            *(stamp, message.encoding, message.height, message.width, message.step),
-            message.data,
+            *(stamp, message.header.frame_id, message.encoding),
+            *(message.height, message.width, message.step, message.data),
         )
 
     def _take_untouched(self) -> None:
@@ -78,6 +79,9 @@ class CameraSensor(TipSensor[CameraSensorParameters]):
             return ''
         trouble = self._finder.trouble and f' ({self._finder.trouble})'
         return f'no reference{trouble}'
+
+    def _advice(self) -> str:
+        return {ANOTHER_FRAME: f' than {self._settings.calibrated_frame}'}.get(self._refusal, '')
 
     def _values(self) -> dict[str, object]:
         values: dict[str, object] = {'reference': self._finder.has_reference}

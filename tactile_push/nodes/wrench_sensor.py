@@ -98,7 +98,7 @@ class WrenchSensor(TipSensor[WrenchSensorParameters]):
             GAP: f' by {self._wrenches.reader.gap:.3f} s, more than max_gap',
             TORSION: '; a contact beside the tip, two contacts, or a wrong tip_xyz or tip_radius',
             BEHIND: '; check the sign of the wrench (reaction) and tip_rpy',
-            ANOTHER_FRAME: ' than that of the tare',
+            ANOTHER_FRAME: f' than {self._settings.calibrated_frame or "that of the tare"}',
         }.get(self._refusal, '')
 
 

@@ -58,6 +58,7 @@ class CameraSensorParameters(NodeParameters):
         'take the first images after activation for those of the untouched tip', read_only=True)
     image_transport: str = parameter(RAW, '',
         'which images to take: image, or image/compressed', choices=TRANSPORTS, read_only=True)
+    calibrated_frame: str = shared.calibrated_frame
     silence_timeout: float = parameter(0.3, 's',
         'this long without an image is an error, by the steady clock', 0.01, 60.0)
     autostart: bool = shared.autostart

@@ -35,7 +35,8 @@ SENSOR_KINDS = {
     SENTENCE: SensorKind(SENSOR_DRIVER, {}, {}, {}),
     FORCE_TORQUE: SensorKind(
         WRENCH_SENSOR,
-        {'needs_tare': False, 'filter_time_constant': FILTER},  # the finger begins in contact
+        # The finger begins in contact, with a sensor of its own.
+        {'needs_tare': False, 'filter_time_constant': FILTER, 'calibrated_frame': ''},
         {
             'publish_wrench': True,
             'sensor_rate': 100.0,
@@ -47,7 +48,7 @@ SENSOR_KINDS = {
     ),
     CAMERA: SensorKind(
         CAMERA_SENSOR,
-        {**CALIBRATION, 'reference_at_start': True},
+        {**CALIBRATION, 'reference_at_start': True, 'calibrated_frame': ''},
         {'publish_image': True, 'image_noise': 0.02},
         {},
     ),

@@ -23,6 +23,9 @@ mount_angle = parameter(FINGER.mount_angle, 'rad',
 commanded_point = parameter(POINTS[0], '',
     "point of the tip that follows the commanded velocity: the disk's centre, the pole as in the "
     'paper, or the contact', choices=POINTS, read_only=True)
+calibrated_frame = parameter('', '',
+    "frame of the calibrated sensor's messages; others are refused; empty takes any",
+    read_only=True)
 tip_xyz = parameter([0.0, 0.0, 0.02], 'm',
     "where the centre of the hemispherical tip is in the force/torque sensor's frame",
     read_only=True)

@@ -44,6 +44,7 @@ class WrenchSensorParameters(NodeParameters):
         'wrenches count only after a tare; false for a sensor that tares itself', read_only=True)
     tare_time: float = parameter(USUAL.tare_time, 's',
         'a tare is the mean of the last wrenches of so long', 0.05, 60.0)
+    calibrated_frame: str = shared.calibrated_frame
     silence_timeout: float = parameter(0.3, 's',
         'this long without a wrench is an error, by the steady clock', 0.01, 60.0)
     autostart: bool = shared.autostart
@@ -67,6 +68,7 @@ def wrench_sensing(p: WrenchSensorParameters) -> WrenchSensing:
             force_range=p.force_range,
             moment_range=p.moment_range,
             tare_time=p.tare_time,
+            frame=p.calibrated_frame,
         )
     except ValueError as error:
         where, _, what = str(error).partition(': ')

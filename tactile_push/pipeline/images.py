@@ -13,6 +13,7 @@ from tactile_push.pipeline.stamps import Seconds, Stamp
 from tactile_push.tactile import ReadingRejectedError
 from tactile_push.tactile.image_contact import ImageContact, ImageContactFinder
 from tactile_push.tactile.touched_region import Image
+from tactile_push.tactile.wrench_reader import ANOTHER_FRAME
 
 
 class Seen(NamedTuple):
@@ -37,14 +38,24 @@ class Images:
         Knows the untouched tip and finds the contact.
     seconds : callable
         Returns the time [s] of a stamp.
+    frame : str, optional
+        Frame in which the calibrated camera's images come; '' takes any.
     """
 
-    def __init__(self, finder: ImageContactFinder, seconds: Seconds) -> None:
+    def __init__(self, finder: ImageContactFinder, seconds: Seconds, frame: str = '') -> None:
         self.finder = finder
         self._seconds = seconds
+        self._frame = frame
 
     def image(
-        self, stamp: Stamp, encoding: str, height: int, width: int, step: int, data: Any
+        self,
+        stamp: Stamp,
+        frame: str,
+        encoding: str,
+        height: int,
+        width: int,
+        step: int,
+        data: Any,
     ) -> Seen:
         """Take a message of `image`.
 
@@ -52,6 +63,8 @@ class Images:
         ----------
         stamp : tuple of int
             When it was taken [s, ns].
+        frame : str
+            The camera's frame.
         encoding, height, width, step, data : str, int, int, int, buffer
             As in sensor_msgs/Image.
 
@@ -60,15 +73,17 @@ class Images:
         Seen
             What came of it.
         """
-        return self._seen(stamp, lambda: grey_image(encoding, height, width, step, data))
+        return self._seen(stamp, frame, lambda: grey_image(encoding, height, width, step, data))
 
-    def compressed(self, stamp: Stamp, data: Any) -> Seen:
+    def compressed(self, stamp: Stamp, frame: str, data: Any) -> Seen:
         """Take a message of `image/compressed`.
 
         Parameters
         ----------
         stamp : tuple of int
             When it was taken [s, ns].
+        frame : str
+            The camera's frame.
         data : buffer
             As in sensor_msgs/CompressedImage.
 
@@ -77,11 +92,13 @@ class Images:
         Seen
             What came of it.
         """
-        return self._seen(stamp, lambda: decoded_image(data))
+        return self._seen(stamp, frame, lambda: decoded_image(data))
 
-    def _seen(self, stamp: Stamp, read: Callable[[], Image]) -> Seen:
+    def _seen(self, stamp: Stamp, frame: str, read: Callable[[], Image]) -> Seen:
         if stamp[0] < 0:  # the reading would have it, too
             return Seen(stamp, None, NEGATIVE_STAMP)
+        if self._frame and frame != self._frame:
+            return Seen(stamp, None, ANOTHER_FRAME)
         try:
             contact = self.finder.contact(read(), self._seconds(*stamp))
         except ReadingRejectedError as reason:

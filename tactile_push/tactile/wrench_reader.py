@@ -59,6 +59,7 @@ class WrenchSensing:
     force_range: float = math.inf  #: a component of this size is saturated [N]
     moment_range: float = math.inf  #: the same of the moment [N m]
     tare_time: float = 0.5  #: the last wrenches of so long make a tare [s]
+    frame: str = ''  #: in which wrenches come; '' for that of the tare
 
     def __post_init__(self) -> None:
         for name in ('xyz', 'rpy'):
@@ -236,7 +237,8 @@ class WrenchReader:
         """Refuse what must not even be remembered."""
         if not (np.isfinite(wrench).all() and math.isfinite(time)):
             raise ReadingRejectedError(NOT_FINITE)
-        if self._frame is not None and frame != self._frame:
+        expected = self.sensing.frame or self._frame
+        if expected is not None and frame != expected:
             raise ReadingRejectedError(ANOTHER_FRAME)
         if (np.abs(wrench) >= self.sensing.ranges).any():
             raise ReadingRejectedError(SATURATED)

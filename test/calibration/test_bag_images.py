@@ -30,7 +30,7 @@ def frames():
 
 def compressed(image):
     picture = cv2.imencode('.png', image)[1]
-    return encode(COMPRESSED, data=picture.tobytes())
+    return encode(COMPRESSED, header={'frame_id': 'camera'}, data=picture.tobytes())
 
 
 def raw(image):
@@ -63,6 +63,7 @@ def test_largest_image_of_each_touch_is_taken_in_the_order_of_the_table(tmp_path
     for image, (azimuth, elevation) in zip(found.images, TOUCHES, strict=True):
         assert (image == painter.image(azimuth, elevation, size=9.0)).all()
     assert (found.reference == painter.image()).all()
+    assert found.frame == 'camera'
     assert found.names == ['touch 1', 'touch 2', 'touch 3']
     assert [round(touch.azimuth, 1) for touch in found.touches] == [0.5, -1.5, 2.0]
 

@@ -7,7 +7,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from tactile_push.calibration.bag_touches import check_count, only_topic, touches_in_order
+from tactile_push.calibration.bag_touches import (
+    check_count,
+    only_frame,
+    only_topic,
+    touches_in_order,
+)
 
 
 class Topic(SimpleNamespace):
@@ -50,3 +55,10 @@ def test_table_has_as_many_touches_as_the_bag():
     check_count(Path('t.csv'), [None, None], 2)
     with pytest.raises(ValueError, match=r't\.csv: expected 3 touches as in the bag, got 2'):
         check_count(Path('t.csv'), [None, None], 3)
+
+
+def test_messages_are_of_one_sensor():
+    assert only_frame({'left'}) == 'left'
+    assert only_frame(set()) == ''
+    with pytest.raises(ValueError, match='expected messages in one frame, got left, right'):
+        only_frame({'right', 'left'})

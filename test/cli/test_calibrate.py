@@ -125,7 +125,9 @@ def pressed(tmp_path):
     for number, parts in enumerate(wrenches):
         force, torque = (dict(zip('xyz', part, strict=True)) for part in parts)
         fields = {'force': force, 'torque': torque}
-        messages.append((1 + number * 10_000_000, encode(WRENCH, wrench=fields)))
+        messages.append(
+            (1 + number * 10_000_000, encode(WRENCH, header={'frame_id': 'left_ft'}, wrench=fields))
+        )
     return write_bag(tmp_path / 'bag', {'/ft/wrench': (WRENCH, messages)}), table
 
 
@@ -142,6 +144,7 @@ def test_wrenches_become_a_parameter_file_for_their_node(command, pressed, out, 
     assert p.tip_xyz == pytest.approx(TIP, abs=1e-6)
     assert p.tip_radius == pytest.approx(RADIUS, abs=1e-6)
     assert not p.reaction
+    assert p.calibrated_frame == 'left_ft'
     assert drawn == [out.with_suffix('.png')]
 
 

@@ -182,6 +182,15 @@ def test_images_that_tell_nothing_are_an_error_that_says_why(bench, change, word
     assert camera.node._counted['readings'] > readings
 
 
+def test_camera_other_than_the_calibrated_one_is_an_error_that_names_it(bench):
+    camera = Camera(bench, calibrated_frame='left_camera')
+    camera.until((ERROR, 'images refused: another frame than left_camera'))
+    bench.until(
+        lambda: bench.health == NO_REFERENCE,
+        lambda: camera.send(lambda message: setattr(message.header, 'frame_id', 'left_camera')),
+    )
+
+
 def test_some_refused_images_are_a_warning(bench):
     camera = Camera(bench, silence_timeout=60.0)
     assert camera.refer().success

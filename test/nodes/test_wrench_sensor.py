@@ -141,6 +141,11 @@ def test_wrenches_that_tell_nothing_are_an_error_that_says_why(bench, contact, h
     assert sensor.node._counted['readings'] == readings
 
 
+def test_sensor_other_than_the_calibrated_one_is_an_error_that_names_it(bench):
+    sensor = Sensor(bench, calibrated_frame='left_ft')
+    sensor.until((ERROR, 'wrenches refused: another frame than left_ft'), *PRESS)
+
+
 def test_some_refused_wrenches_are_a_warning(bench):
     sensor = Sensor(bench, silence_timeout=60.0)
     sensor.tare()

@@ -33,7 +33,7 @@ def images():
 
 def send(step, stamp, **touch):
     image = PAINTER.image(**touch)
-    return step.image(stamp, 'mono8', HEIGHT, WIDTH, WIDTH, image.tobytes())
+    return step.image(stamp, 'cam', 'mono8', HEIGHT, WIDTH, WIDTH, image.tobytes())
 
 
 def only(outputs):
@@ -57,7 +57,7 @@ def test_no_contact_is_not_a_number(images):
 
 def test_compressed_image_is_as_good(images):
     picture = cv2.imencode('.png', PAINTER.image(azimuth=0.5, elevation=0.9))[1]
-    fields = only(images.compressed((7, 0), picture.tobytes()).outputs())
+    fields = only(images.compressed((7, 0), 'cam', picture.tobytes()).outputs())
     assert fields['position'][:2] == pytest.approx([0.5, 0.9], abs=0.02)
 
 
@@ -65,12 +65,21 @@ def test_compressed_image_is_as_good(images):
     ('seen', 'refusal'),
     [
         (lambda step: send(step, (-1, 0)), 'negative stamp'),
-        (lambda step: step.image((7, 0), 'mono16', 1, 1, 2, b'00'), 'encoding other than'),
-        (lambda step: step.image((7, 0), 'mono8', 1, 2, 2, b'01'), 'another size'),
-        (lambda step: step.compressed((7, 0), b''), 'compressed image cannot be decoded'),
+        (lambda step: step.image((7, 0), 'cam', 'mono16', 1, 1, 2, b'00'), 'encoding other than'),
+        (lambda step: step.image((7, 0), 'cam', 'mono8', 1, 2, 2, b'01'), 'another size'),
+        (lambda step: step.compressed((7, 0), 'cam', b''), 'compressed image cannot be decoded'),
     ],
 )
 def test_refused_image_gives_nothing(images, seen, refusal):
     came = seen(images)
     assert came.refusal.startswith(refusal)
     assert list(came.outputs()) == []
+
+
+def test_image_of_another_camera_than_the_calibrated_one_is_refused():
+    step = Images(
+        ImageContactFinder(CAMERA, ImageContactSettings()), lambda sec, ns: float(sec), 'other'
+    )
+    assert send(step, (5, 0)).refusal == 'another frame'
+    step = Images(step.finder, lambda sec, ns: float(sec), 'cam')
+    assert send(step, (5, 0)).refusal == 'no reference'

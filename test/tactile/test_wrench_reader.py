@@ -254,6 +254,12 @@ def test_wrench_that_tells_nothing_is_refused_and_the_next_one_counts(force, how
     assert sensor.press(0.5, 1.0).reading.azimuth == pytest.approx(0.5)
 
 
+def test_sensor_other_than_the_calibrated_one_is_refused_even_before_a_tare():
+    sensor = Sensor(replace(PLAIN, frame='sensor'), needs_tare=True)
+    assert sensor.refusal([0.0, 0.0, 0.0], frame='wrist') == 'another frame'
+    assert sensor.refusal([0.0, 0.0, 0.0]) == 'not tared'
+
+
 def test_slow_sensor_is_refused_altogether():
     sensor = Sensor()
     sensor.press()
