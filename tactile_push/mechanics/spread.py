@@ -30,9 +30,9 @@ def largest_spread(outline: Outline) -> float:
 def radial_power(spread: float) -> float:
     """Return by which power of the load within it a ring's share of the ray grows.
 
-    The load within the share s is s^(1/power), so the mean share is 1/(1 + power). With the mean
-    depth u^2 (5 - u)/12, u = 2 - spread, it is 0 in the centroid, 2/3 under even pressure, 1 on the
-    rim, and smooth there.
+    The load within the share s is s^(1/power), so the mean share is 1/(1 + power): 0 in the
+    centroid, 2/3 under even pressure, 1 on the rim. The mean depth, 1 less the mean share, is
+    u^2 (5 - u)/12 with u = 2 - spread, and smooth at the rim.
     """
     u = max(RIM - spread, 0.0)
     depth = u * u * (5.0 - u) / 12.0

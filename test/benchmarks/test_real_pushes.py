@@ -11,11 +11,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rich.progress import Progress
 
 from tactile_push.mechanics import Outline, Pose, Slider, Support
 
-SCRIPT = Path(__file__).parents[2] / 'benchmarks' / 'real_pushes.py'
+BENCHMARKS = Path(__file__).parents[2] / 'benchmarks'
+sys.path.insert(0, str(BENCHMARKS))
+
+from pushing import fitting  # noqa: E402
+from pushing.bounds import standard_deviations  # noqa: E402
+from pushing.predicting import Physics, final_poses, force_errors, predict  # noqa: E402
+from pushing.records import read_pushes  # noqa: E402
+
+SCRIPT = BENCHMARKS / 'real_pushes.py'
 RADIUS = 0.005  # of the tip
 # The origin of the file's frame is far from the centroid (0.025, 0.0216).
 VERTICES = [[0.0, 0.0], [0.06, 0.0], [0.05, 0.04], [0.0, 0.05]]
@@ -37,10 +44,11 @@ def script():
 @pytest.fixture
 def bench(script, monkeypatch):
     """Give the benchmark with a small grid and few points of support."""
-    monkeypatch.setattr(script, 'POINTS', 40)
-    monkeypatch.setattr(script, 'SPREADS', np.array(SPREADS))
-    monkeypatch.setattr(script, 'FRICTIONS', np.array(FRICTIONS))
-    monkeypatch.setattr(script, 'REFINEMENTS', 0)
+    for module in (script, fitting):
+        monkeypatch.setattr(module, 'POINTS', 40)
+    monkeypatch.setattr(fitting, 'SPREADS', np.array(SPREADS))
+    monkeypatch.setattr(fitting, 'FRICTIONS', np.array(FRICTIONS))
+    monkeypatch.setattr(fitting, 'REFINEMENTS', 0)
     return script
 
 
@@ -147,13 +155,13 @@ def test_a_prediction_with_the_true_numbers_has_no_error(bench, write):
     assert np.median(moved) > 0.005
     assert np.median(turned) > 0.05
 
-    read = bench.read_pushes(folder / 'block.json')
-    errors = bench.predict(read, Support.spread(read.outline, 1.4, 40), 0.25)
+    read = read_pushes(folder / 'block.json')
+    errors = predict(read, Physics(Support.spread(read.outline, 1.4, 40), 0.25))
 
     assert read.name == 'block'
     assert errors.position == pytest.approx(0.0, abs=1e-9)
     assert errors.angle == pytest.approx(0.0, abs=1e-9)
-    wrong = bench.predict(read, Support.spread(read.outline, 2.4, 40), 0.05)
+    wrong = predict(read, Physics(Support.spread(read.outline, 2.4, 40), 0.05))
     assert wrong.position.mean() > 1e-4
 
 
@@ -163,9 +171,9 @@ def test_errors_are_distances_of_the_origin_and_angles_the_short_way_around(benc
     pushes[0]['object_end'][1] -= 0.004
     pushes[1]['object_end'][2] += 0.25
     pushes[2]['object_end'][2] += 2.0 * math.pi - 0.125
-    read = bench.read_pushes(write(content(pushes)) / 'block.json')
+    read = read_pushes(write(content(pushes)) / 'block.json')
 
-    errors = bench.predict(read, Support.spread(read.outline, 1.4, 40), 0.25)
+    errors = predict(read, Physics(Support.spread(read.outline, 1.4, 40), 0.25))
 
     assert errors.position == pytest.approx([0.005, 0.0, 0.0], abs=1e-9)
     assert errors.angle == pytest.approx([0.0, 0.25, 0.125], abs=1e-9)
@@ -209,9 +217,9 @@ def test_a_head_on_push_moves_the_object_by_the_rest_of_the_way(bench, write, mu
         ]
     ]
     made = content(pushes, outline={'kind': 'polygon', 'vertices': square})
-    read = bench.read_pushes(write(made) / 'block.json')
+    read = read_pushes(write(made) / 'block.json')
 
-    errors = bench.predict(read, Support.corners(read.outline), mu_c)
+    errors = predict(read, Physics(Support.corners(read.outline), mu_c))
 
     assert errors.position == pytest.approx(0.0, abs=1e-9)
     assert errors.angle == pytest.approx(0.0, abs=1e-8)
@@ -245,19 +253,25 @@ def test_an_overlap_moves_the_way_of_the_tip_out_along_the_normal(bench, write):
             deep = complex(*push[key]) + overlap * inward
             push[key] = [deep.real, deep.imag]
         pushes.append(push)
-    read = bench.read_pushes(write(content(pushes)) / 'block.json')
+    read = read_pushes(write(content(pushes)) / 'block.json')
 
-    errors = bench.predict(read, Support.spread(read.outline, 1.4, 40), 0.2)
+    errors = predict(read, Physics(Support.spread(read.outline, 1.4, 40), 0.2))
 
     assert errors.position == pytest.approx(0.0, abs=1e-8)
     assert errors.angle == pytest.approx(0.0, abs=1e-7)
 
 
-def test_the_fit_finds_the_numbers_of_the_pushes(bench, write):
-    read = bench.read_pushes(write(content(synthetic(bench, 12, (1.0, 0.3)))) / 'block.json')
+def fitted(bench, read, which=0):
+    """Fit and give the errors and what was fitted on either half."""
+    found = fitting.fit(fitting.Search(read, lambda: None))[which]
+    name = ('fitted', 'centre')[which]
+    return found.errors, [bench._numbers(name, read, half) for half in found.halves]
 
-    with Progress(disable=True) as progress:
-        errors, numbers = bench.fit(read, progress)
+
+def test_the_fit_finds_the_numbers_of_the_pushes(bench, write):
+    read = read_pushes(write(content(synthetic(bench, 12, (1.0, 0.3)))) / 'block.json')
+
+    errors, numbers = fitted(bench, read)
 
     c = Support.spread(read.outline, 1.0, 40).c
     assert numbers == [pytest.approx({'spread': 1.0, 'c_mm': 1000.0 * c, 'mu_c': 0.3})] * 2
@@ -267,11 +281,10 @@ def test_the_fit_finds_the_numbers_of_the_pushes(bench, write):
 
 def test_refinements_find_numbers_between_those_of_the_grid(bench, write, monkeypatch):
     # Whichever point of the grid is best, the one in the middle is half a step away.
-    monkeypatch.setattr(bench, 'REFINEMENTS', 1)
-    read = bench.read_pushes(write(content(synthetic(bench, 6, (1.2, 0.2)))) / 'block.json')
+    monkeypatch.setattr(fitting, 'REFINEMENTS', 1)
+    read = read_pushes(write(content(synthetic(bench, 6, (1.2, 0.2)))) / 'block.json')
 
-    with Progress(disable=True) as progress:
-        errors, numbers = bench.fit(read, progress)
+    errors, numbers = fitted(bench, read)
 
     c = Support.spread(read.outline, 1.2, 40).c
     for half in numbers:
@@ -285,10 +298,9 @@ def test_either_half_is_predicted_with_the_numbers_of_the_other(bench, write):
     first, second = (1.0, 0.1), (1.4, 0.3)
     mixed = synthetic(bench, 12, first, second)
     swapped = synthetic(bench, 12, second, first)
-    read = bench.read_pushes(write(content(mixed)) / 'block.json')
+    read = read_pushes(write(content(mixed)) / 'block.json')
 
-    with Progress(disable=True) as progress:
-        errors, numbers = bench.fit(read, progress)
+    errors, numbers = fitted(bench, read)
 
     expected = [
         {
@@ -337,15 +349,172 @@ def test_pushes_on_a_known_support_say_how_far_above_it_they_are(bench, main, wr
     assert result['known_tilt']['mean_mm'] == pytest.approx(0.0, abs=1e-6)
     assert (result['known']['mean_mm'] > 0.01) == (tilt > 0.0)
     table = main(folder)[1]
-    assert f'fitted on either half: tilt = {1000.0 * tilt:.0f} mm, mu_c = 0.40' in table
+    assert f'mu_c 0.400, tilt {1000.0 * tilt:.0f} mm' in table
 
 
 @pytest.mark.parametrize(
     'support',
-    [None, [], {}, {'points': 3}, {'points': [[0.0]], 'loads': [1.0]}, FEET | {'loads': []}],
+    [
+        *(None, [], {}, {'points': 3}, {'points': [[0.0]], 'loads': [1.0]}, FEET | {'loads': []}),
+        {'points': [[0.001, 0.001], [0.01, 0.001], [0.001, 0.01]]},  # beside the centroid
+    ],
 )
 def test_a_support_that_is_none_is_refused(refused, write, support):
-    assert 'block.json: support: ' in refused(write(content([PUSH, PUSH], support=support)))
+    line = refused(write(content([PUSH, PUSH], support=support)))
+
+    assert 'block.json: support: ' in line or 'block.json: centre_of_mass: ' in line
+
+
+def test_loads_that_the_file_leaves_out_are_those_of_statics(write):
+    points = [[0.0, 0.0], [0.06, 0.0], [0.0, 0.05]]
+    folder = write(content([PUSH, PUSH], support={'points': points}, centre_of_mass=[0.015, 0.025]))
+
+    read = read_pushes(folder / 'block.json')
+
+    assert read.support.loads == pytest.approx([0.25, 0.25, 0.5], abs=1e-9)  # by levers
+
+
+@pytest.mark.parametrize('offset', [(1.0, 0.0), (-1.0, 1.0)])
+def test_the_fit_finds_where_the_centre_of_friction_is(bench, write, monkeypatch, offset):
+    monkeypatch.setattr(fitting, 'REFINEMENTS', 1)
+    outline = Outline.polygon(VERTICES)
+    even = Support.spread(outline, 1.4, 40)
+    away = fitting.HOME * Support.uniform(outline, 40).c * np.array(offset)
+    support = even.carrying((even.centre[0] + away[0], even.centre[1] + away[1]))
+    read = read_pushes(
+        write(content([measured(support, 0.3, *way) for way in ways(12)])) / 'block.json'
+    )
+
+    errors, numbers = fitted(bench, read, 1)
+
+    for half in numbers:
+        found = [half[key] for key in ('spread', 'mu_c', 'x_mm', 'y_mm')]
+        assert found == pytest.approx([1.4, 0.3, *(1000.0 * away)], abs=1e-3)
+    assert errors.position == pytest.approx(0.0, abs=1e-6)
+    assert fitted(bench, read)[0].position.mean() > 1e-4
+
+
+@pytest.mark.parametrize(('gain', 'stays'), [(0.4, True), (0.6, False)])
+def test_a_prior_keeps_the_centre_at_home_unless_the_data_ask_for_more(write, gain, stays):
+    # A standard deviation away costs half a mean error of one push.
+    read = read_pushes(write(content([PUSH] * 20)) / 'block.json')
+    search = fitting.Search(read, lambda: None)
+    home, away = (1.0, 0.2, 0.0, 0.0), (1.0, 0.2, 0.0, fitting.HOME * search.length)
+    search.known = {home: np.full(20, 0.003), away: np.full(20, 0.003)}
+    search.known[away][4] -= gain * 0.003
+
+    point, _ = search.best([home, away], 0, 0.003 / 10)
+
+    assert (point == home) == stays
+
+
+def test_what_the_data_allow_is_what_fits_of_noisy_pushes_scatter_by(bench, write):
+    # Newton's step from the truth is the fit; its scatter over draws of noise is the bound.
+    outline, sigma = Outline.polygon(VERTICES), 2e-4
+    even = Support.spread(outline, 1.4, 40)
+    true, random = (1.4, 0.3, 0.0, 0.0), np.random.default_rng(4)
+    pushes = [measured(even, 0.3, *way) for way in ways(30)]
+    length = Support.uniform(outline, 40).c
+
+    for push in pushes:
+        noise = sigma * random.normal(size=3) / [1.0, 1.0, length]
+        push['object_end'] = np.add(push['object_end'], noise).tolist()
+    read = read_pushes(write(content(pushes)) / 'block.json')
+
+    found = standard_deviations(fitting.Search(read, lambda: None), true)
+
+    slopes = []
+    for step in ((0.02, 0, 0, 0), (0, 0.01, 0, 0), (0, 0, 1e-4, 0), (0, 0, 0, 1e-4)):
+        search = fitting.Search(read, lambda: None)
+        physics = [search.physics(tuple(np.add(true, sign * np.array(step)))) for sign in (-1, 1)]
+        lower, upper = (
+            np.array([tuple(pose) for pose in final_poses(read, there)]) for there in physics
+        )
+        by = physics[1].support.c - physics[0].support.c if step[0] else 2.0 * max(step)
+        slopes.append(((upper - lower) / by * [1.0, 1.0, length]).ravel())
+    fits = [
+        np.linalg.lstsq(np.transpose(slopes), sigma * random.normal(size=90), rcond=None)[0]
+        for _ in range(2000)
+    ]
+    c, mu_c, x, y = np.std(fits, axis=0)
+    expected = {'c_mm': 1000.0 * c, 'mu_c': mu_c, 'x_mm': 1000.0 * x, 'y_mm': 1000.0 * y}
+    assert found == pytest.approx(expected, rel=0.3)  # the residuals tell sigma to 15 %
+
+
+def test_the_angle_of_the_force_is_that_between_measured_and_predicted(write):
+    # A head-on push at the middle of a square: the force is along the way.
+    pushes = [translation(-0.002, 0.01, yaw) for yaw in (0.0, 1.0)]
+    for push, beside in zip(pushes, (0.1, -0.2), strict=True):
+        way = complex(*push['tip_end']) - complex(*push['tip_start'])
+        force = 3.0 * way * cmath.exp(1j * beside)
+        push['force'] = [force.real, force.imag]
+    square = [[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]]
+    made = content(pushes, outline={'kind': 'polygon', 'vertices': square})
+    read = read_pushes(write(made) / 'block.json')
+
+    errors = force_errors(read, Physics(Support.corners(read.outline), 0.3))
+
+    assert errors == pytest.approx([0.1, 0.2], abs=1e-9)
+
+
+def test_without_friction_the_force_turns_with_the_edge(write):
+    # It begins along the edge's normal, and its mean over the last 60 % lies between what the edge
+    # has turned by before and at the end.
+    pushes = []
+    for start, begin, far in ways(6):
+        end = tuple(np.add(begin, np.subtract(far, begin) * 0.4))  # it stays on the edge
+        push = measured(Support.uniform(Outline.polygon(VERTICES), 40), 0.0, start, begin, end)
+        there = (complex(*begin) - complex(*start[:2])) * cmath.exp(-1j * start[2])
+        edges = [
+            (complex(*b) - complex(*a), complex(*a))
+            for a, b in zip(VERTICES, VERTICES[1:] + VERTICES[:1], strict=True)
+        ]
+        _, normal = max(
+            (((there - a) * (-1j * edge).conjugate()).real / abs(edge), 1j * edge)
+            for edge, a in edges
+        )
+        force = normal * cmath.exp(1j * start[2])
+        pushes.append(push | {'force': [force.real, force.imag]})
+    read = read_pushes(write(content(pushes)) / 'block.json')
+
+    errors = force_errors(read, Physics(Support.uniform(read.outline, 40), 0.0))
+
+    turned = np.array([abs(push['object_end'][2] - push['object_start'][2]) for push in pushes])
+    assert (errors < turned).all()
+    much = turned > 0.02  # and in one sense
+    assert much.sum() >= 4
+    assert (errors > 0.2 * turned)[much].all()
+
+
+def test_a_force_within_the_friction_cone_is_what_the_support_resists_with(write):
+    # With endless friction the contact sticks, and the force is the sum of the feet's frictions.
+    outline = Outline.polygon(VERTICES)
+    support = Support.at_points(FEET['points'], FEET['loads'])
+    start = (0.0, 0.0, 0.4)
+    x, y = support.centre
+    ends = [placed(start, *point) for point in ((x + 0.003, -RADIUS), (x + 0.0032, 0.0))]
+    push = measured(support, math.inf, start, *((end.real, end.imag) for end in ends))
+    slider = Slider.on(outline, support, exact=True)
+    way = (ends[1] - ends[0]) / abs(ends[1] - ends[0])
+    before = placed(start, x, y)
+    after = placed(push['object_end'], x, y)
+    turn = push['object_end'][2] - start[2]
+    moved = (after - before) * cmath.exp(-0.5j * (start[2] + push['object_end'][2]))
+    f_x, f_y, _ = slider.wrench((moved.real, moved.imag, turn))
+    force = complex(f_x, f_y) * cmath.exp(1j * push['object_end'][2])
+    assert abs(cmath.phase(force / way)) > 0.01
+    push['force'] = [force.real, force.imag]
+    read = read_pushes(write(content([push, push])) / 'block.json')
+
+    errors = force_errors(read, Physics(support, math.inf))
+
+    assert errors == pytest.approx([0.0, 0.0], abs=0.02)
+
+
+def test_forces_that_are_none_are_refused(refused, write):
+    for force in (None, [1.0], ['a', 'b'], [math.nan, 1.0]):
+        line = refused(write(content([PUSH | {'force': [1.0, 0.0]}, PUSH | {'force': force}])))
+        assert 'block.json: pushes[1]: force: expected 2 finite numbers' in line
 
 
 def test_json_has_the_errors_of_every_file_beside_the_published_ones(bench, main, write):
@@ -386,7 +555,7 @@ def test_the_table_has_every_file_and_model(bench, main, write):
     assert 'polynomial' in out
     assert '1.250' in out
     assert '4 pushes' in out
-    assert 'mu_c = 0.300' in out
+    assert 'mu_c 0.300' in out
 
 
 @pytest.mark.slow
@@ -426,8 +595,14 @@ PUSH = {
 def test_a_folder_without_files_is_refused(refused, tmp_path):
     line = refused(tmp_path)
 
-    assert 'DIR: ' in line
+    assert 'PATH: ' in line
     assert str(tmp_path) in line
+
+
+def test_two_files_of_one_name_are_refused(refused, write):
+    folder = write(content([PUSH, PUSH]))
+
+    assert 'PATH: expected files of different names, got two of block' in refused(folder, folder)
 
 
 def test_a_folder_that_is_none_is_refused(refused, tmp_path):
