@@ -45,6 +45,9 @@ class CameraSensorParameters(NodeParameters):
     rim: list[float] = parameter(NO_RIM, 'levels',
         f'brightness along the rim when calibrated, in {SECTORS} sectors of azimuth from -pi on; '
         'a single 0 if it is not known', read_only=True)
+    rim_elevations: list[float] = parameter(NO_RIM, 'rad',
+        'where the tip ended in the image when calibrated, in the same sectors: elevations, '
+        'pi/2 where nothing was seen; a single 0 if it is not known', read_only=True)
     force_scale: float = parameter(0.0, 'N/sr^1.5',
         "normal force over the 3/2 power of the contact's area; 0 measures no force", 0.0, 1e9)
     threshold: float = parameter(12.0, 'levels',
@@ -96,9 +99,12 @@ def make_image_finder(p: CameraSensorParameters) -> 'ImageContactFinder':
     )
     if not camera.dome().any():
         raise ValueError('centre: expected a camera that sees the dome')
-    if p.rim != NO_RIM and not (len(p.rim) == SECTORS and all(map(math.isfinite, p.rim))):
-        raise ValueError(f'rim: expected {SECTORS} finite numbers, got {p.rim}')
-    rim = RimProfile(tuple(p.rim)) if p.rim != NO_RIM else None
+    for name in ('rim', 'rim_elevations'):
+        values = getattr(p, name)
+        if values != NO_RIM and not (len(values) == SECTORS and all(map(math.isfinite, values))):
+            raise ValueError(f'{name}: expected {SECTORS} finite numbers, got {values}')
+    places = tuple(p.rim_elevations) if p.rim_elevations != NO_RIM else ()
+    rim = RimProfile(tuple(p.rim), places) if p.rim != NO_RIM else None
     return ImageContactFinder(camera, image_settings(p), rim, at_start=p.reference_at_start)
 
 
@@ -139,5 +145,6 @@ def calibrated_values(
         'eye': list(camera.eye),
         'reach': reach,
         'rim': [round(level, 1) for level in rim.levels],
+        'rim_elevations': [round(elevation, 4) for elevation in rim.elevations] or NO_RIM,
         'force_scale': force_scale,
     }

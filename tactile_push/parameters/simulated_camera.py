@@ -24,6 +24,7 @@ CALIBRATION: dict[str, Any] = {
     'eye': list(EYE),
     'reach': math.pi / 2.0,
     'rim': NO_RIM,
+    'rim_elevations': NO_RIM,
 }
 
 

@@ -22,13 +22,20 @@ LEAST_PATTERN = 0.04  # standard deviation over mean, below which the rim looks 
 # Correlations of patterns. Lamps age and dust settles: the pattern of the same tip stays above
 # `SAME`. Turned, it falls below, and is found again at another azimuth.
 SAME, FOUND_AGAIN = 0.9, 0.95
+UNSEEN = math.pi / 2.0  # in place of an elevation at which there is no step
+# Angle by which the step at the rim may be off, in the median of the sectors; picked. Noise and
+# defocus leave a tenth of it.
+MOVED = math.radians(1.0)
 
 
 @dataclass(frozen=True)
 class RimProfile:
-    """Brightness along the rim."""
+    """How the rim looks, in `SECTORS` from azimuth -pi on, counted in its sense."""
 
-    levels: tuple[float, ...]  #: in `SECTORS` from azimuth -pi on, counted in its sense [levels]
+    levels: tuple[float, ...]  #: brightness along it [levels]
+    #: where the tip ends in the image [rad]: 0 as the camera has it, `UNSEEN` where it is not seen;
+    #: empty if nobody looked
+    elevations: tuple[float, ...] = ()
 
     def difference(self, now: 'RimProfile') -> str:
         """Compare with the rim as it looks now.
@@ -43,6 +50,25 @@ class RimProfile:
         str
             What is different, for people; '' if it is the same rim, or one without a pattern.
         """
+        return self._other_pattern(now) or self._other_place(now)
+
+    def _other_place(self, now: 'RimProfile') -> str:
+        before, after = np.array(self.elevations), np.array(now.elevations)
+        known = before < UNSEEN
+        if not (before.size == after.size and 2 * np.count_nonzero(known) >= SECTORS):
+            return ''
+        both = known & (after < UNSEEN)
+        if 2 * np.count_nonzero(both) < np.count_nonzero(known):
+            return 'the rim is not seen where it was calibrated: another tip or camera'
+        off = float(np.median(np.abs(after[both] - before[both])))
+        if off <= MOVED:
+            return ''
+        return (
+            f'the rim is {math.degrees(off):.1f}° off its place in the calibration: another tip, '
+            'or the camera has moved'
+        )
+
+    def _other_pattern(self, now: 'RimProfile') -> str:
         before, after = np.asarray(self.levels), np.asarray(now.levels)
         if not _has_pattern(before):
             return ''
@@ -68,6 +94,9 @@ class Rim:
     """
 
     def __init__(self, camera: DomeCamera) -> None:
+        from tactile_push.tactile.rim_step import RimStep  # needs OpenCV
+
+        self._step = RimStep(camera)
         rows, columns = np.mgrid[: camera.height, : camera.width]
         azimuth, elevation = angles_of(camera.directions(np.stack([columns, rows], axis=-1)))
         band = np.flatnonzero((elevation >= BAND[0]) & (elevation <= BAND[1]))
@@ -88,10 +117,12 @@ class Rim:
         Returns
         -------
         RimProfile
-            The median in each sector; 0 in one that the image does not show.
+            The median in each sector, 0 in one that the image does not show, and where the tip
+            ends.
         """
         parts = np.split(image.ravel()[self._pixels], self._ends)
-        return RimProfile(tuple(float(np.median(part)) if part.size else 0.0 for part in parts))
+        levels = tuple(float(np.median(part)) if part.size else 0.0 for part in parts)
+        return RimProfile(levels, self._step.elevations(image))
 
 
 def _has_pattern(levels: Array) -> bool:

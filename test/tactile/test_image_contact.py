@@ -216,6 +216,14 @@ def test_reference_of_a_tip_that_was_not_calibrated_is_refused(look, words):
     assert Tip(rim=calibrated_rim()).no_reference(**look).startswith(words)
 
 
+def test_reference_of_a_camera_that_moved_is_refused():
+    tip = Tip(rim=calibrated_rim())
+    for _ in range(IMAGES_OF_REFERENCE):
+        tip.refusal(np.roll(tip.painter.image(), 2, axis=1))  # 3 degrees
+    with pytest.raises(NotUntouchedError, match=r'the rim is \d\.\d° off its place'):
+        tip.finder.take_reference()
+
+
 def test_reference_of_the_calibrated_tip_is_taken_though_its_lamps_have_aged():
     tip = Tip(rim=calibrated_rim())
     tip.refer(skin=60.0)

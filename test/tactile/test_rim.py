@@ -6,8 +6,10 @@ import math
 import numpy as np
 import pytest
 
+pytest.importorskip('cv2', reason="pip install 'tactile_push[camera]'")
+
 from tactile_push.tactile.dome_camera import DomeCamera
-from tactile_push.tactile.rim import SECTORS, Rim, RimProfile
+from tactile_push.tactile.rim import SECTORS, UNSEEN, Rim, RimProfile
 
 UPRIGHT, LENS, MIDDLE = (math.pi, 0.0, 0.0), (60.0, 0.0, 0.0), (0.0, 0.0, 0.0)
 CAMERA = DomeCamera(200, 200, (100.0, 100.0), UPRIGHT, LENS, MIDDLE)
@@ -76,3 +78,30 @@ def test_dark_rim_is_not_the_same():
 def test_rim_that_was_alike_all_around_tells_nothing():
     alike = profile(np.full(SECTORS, 100.0))
     assert alike.difference(profile(pattern(AZIMUTHS))) == ''
+
+
+def placed(elevation, unseen=0, levels=None):
+    """Return a rim that is seen at an elevation, but for some sectors."""
+    elevations = [UNSEEN] * unseen + [elevation] * (SECTORS - unseen)
+    return RimProfile(tuple(levels or [100.0] * SECTORS), tuple(elevations))
+
+
+@pytest.mark.parametrize(
+    ('before', 'now', 'words'),
+    [
+        (placed(0.01), placed(0.02), ''),
+        (placed(0.01), placed(-0.03), 'the rim is 2.3° off its place in the calibration'),
+        (placed(0.01, unseen=30), placed(0.05, unseen=10), 'the rim is 2.3° off'),
+        (placed(0.01), placed(0.01, unseen=50), 'the rim is not seen where it was calibrated'),
+        (placed(0.01, unseen=50), placed(0.05), ''),  # it was hardly seen
+        (RimProfile((100.0,) * SECTORS), placed(0.05), ''),  # nobody looked
+    ],
+)
+def test_rim_in_another_place_is_noticed_without_a_pattern(before, now, words):
+    assert before.difference(now).startswith(words)
+    assert bool(before.difference(now)) == bool(words)
+
+
+def test_dirt_on_some_sectors_is_no_other_place():
+    elevations = [0.15] * 20 + [0.0] * (SECTORS - 20)
+    assert placed(0.0).difference(RimProfile((100.0,) * SECTORS, tuple(elevations))) == ''
