@@ -14,8 +14,9 @@ import numpy as np
 from tactile_push.mechanics.compiled import Array
 
 BESIDE = 1e-6  # distance that counts as none, of the support's reach
-BALANCED = 1e-12  # what is left of the moments, of weight times reach
-STEPS = 200
+BALANCED = 2e-9  # what may be left of weight and moments, of the weight and times the reach
+STEPS = 100
+DEEPEST = 1e12  # compression, of the mean one, where a weight just beside the support would end
 DAMPING = 1e-12  # of Newton's matrix, where all points that bear are on one line
 
 
@@ -44,7 +45,8 @@ def spring_loads(points: Array, stiffness: Array, centre_of_mass: tuple[float, f
     bearing = stiffness > 0.0
     _check_balance(points[bearing], centre_of_mass)
     offsets = points - centre_of_mass
-    reach = float(np.hypot(*offsets[bearing].T).max())
+    away = np.hypot(offsets[:, 0], offsets[:, 1])
+    reach = float(away[bearing].max())
     weights = stiffness / stiffness.sum()
     if not reach > 0.0:
         return weights
@@ -58,12 +60,16 @@ def spring_loads(points: Array, stiffness: Array, centre_of_mass: tuple[float, f
         pressed = np.maximum(arms @ sunk, 0.0)
         left = weight - (weights * pressed) @ arms
         if np.abs(left).max() <= BALANCED:
+            return weights * pressed
+        if np.abs(sunk).max() > DEEPEST:
             break
         touching = arms[pressed > 0.0]
         matrix = (weights[pressed > 0.0] * touching.T) @ touching
         step = np.linalg.solve(matrix + DAMPING * np.eye(3), left)
         sunk = sunk + _length(arms, weights, sunk, step) * step
-    return weights * pressed
+    # By rounding just beside a point at the support's edge, which then bears everything.
+    nearest = away == away[bearing].min()
+    return np.where(nearest & bearing, weights, 0.0) / weights[nearest & bearing].sum()
 
 
 def _length(arms: Array, weights: Array, sunk: Array, step: Array) -> float:
@@ -77,7 +83,7 @@ def _length(arms: Array, weights: Array, sunk: Array, step: Array) -> float:
         touching = now + middle * change > 0.0
         slope = weights[touching] @ (now[touching] * change[touching]) - step[0]
         growth = weights[touching] @ change[touching] ** 2
-        if slope + end * growth >= 0.0 and growth > 0.0:
+        if growth > 0.0 and slope + end * growth >= 0.0:
             return float(max(-slope / growth, start))
         start = end
     return 1.0

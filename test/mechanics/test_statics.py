@@ -128,6 +128,19 @@ def test_a_centre_of_mass_is_accepted_exactly_over_the_tripod(centre):
             spring_loads(TRIPOD, alike(TRIPOD), centre)
 
 
+@pytest.mark.parametrize('beside', [3e-8, 1e-9, 1e-11, 1e-13, 1e-15, 0.0])
+@pytest.mark.parametrize('count', [3, 4])
+def test_a_weight_just_beside_the_support_is_borne_as_at_its_edge(count, beside):
+    corners = np.array([(-0.025, -0.024), (0.025, -0.024), (0.025, 0.024), (-0.025, 0.024)])
+    corners = corners[:count]
+
+    at_a_corner = spring_loads(corners, alike(corners), (0.025 + beside, -0.024 - beside))
+    assert at_a_corner == pytest.approx([0.0, 1.0, 0.0, 0.0][:count], abs=1e-8)
+    if beside < 1e-11:  # an edge has less room
+        on_an_edge = spring_loads(corners, alike(corners), (0.025 + beside, 0.0))
+        assert on_an_edge == pytest.approx([0.0, 0.5, 0.5, 0.0][:count], abs=1e-8)
+
+
 @pytest.mark.parametrize('centre', [(math.nan, 0.0), (0.0, math.inf)])
 def test_a_centre_of_mass_that_is_no_place_is_refused(centre):
     with pytest.raises(ValueError, match='^centre_of_mass: '):
