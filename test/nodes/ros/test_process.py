@@ -216,6 +216,23 @@ sys.exit(process.run(Slow))
     assert done.stderr == ('own: full\n' if status else '')
 
 
+def test_node_that_has_ended_says_what_waits_and_is_not_taken_apart(environment):
+    program = """
+import atexit
+
+class Taken:
+    def __del__(self):
+        os.write(1, b'apart')
+
+taken = Taken()
+atexit.register(print, 'done')
+print('waits')
+sys.exit(process.run(Own))
+"""
+    done = run_program(environment, program)
+    assert (done.returncode, done.stdout, done.stderr) == (0, 'waits\ndone\n', '')
+
+
 def test_help_lists_every_parameter_with_default_and_unit(environment):
     done = finish(environment, 'contact_geometry', '--help')
     assert (done.returncode, done.stderr) == (0, '')
