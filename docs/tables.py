@@ -143,7 +143,8 @@ def launch_page() -> str:
     parts = [
         '# Launch files\n',
         'An argument that is refused ends the launch file with one line before anything starts. If '
-        'a node fails, the launch file ends the others.\n',
+        'a node fails, the launch file ends the others. RViz and the page only show the run, which '
+        'goes on without them.\n',
     ]
     for file, kind, words in (
         (

@@ -6,9 +6,16 @@ import sys
 from importlib.util import find_spec
 
 
+def missing_for_the_page() -> str:
+    """Return what the live page needs and Python does not find, and how to get it, or ''."""
+    if find_spec('aiohttp') is not None:
+        return ''
+    return "needs aiohttp: pip install 'tactile_push[watch]'"
+
+
 def aiohttp_is_missing(who: str) -> bool:
     """Return whether Python finds no aiohttp, and print what the command or node needs if so."""
-    if find_spec('aiohttp') is not None:
-        return False
-    print(f"{who}: needs aiohttp: pip install 'tactile_push[watch]'", file=sys.stderr)
-    return True
+    needed = missing_for_the_page()
+    if needed:
+        print(f'{who}: {needed}', file=sys.stderr)
+    return bool(needed)

@@ -72,7 +72,7 @@ def _check_installed(program: Program) -> None:
 
 
 def _node(program: Program, namespace: str) -> Node:
-    """Return the action that starts a program and, when it fails, ends all others."""
+    """Return the action that starts a program and, when one that is needed fails, ends all."""
     return Node(
         package=program.package,
         executable=program.executable,
@@ -82,7 +82,7 @@ def _node(program: Program, namespace: str) -> Node:
         arguments=list(program.arguments),
         remappings=list(program.remappings),
         output='screen',
-        on_exit=_end_with,
+        on_exit=None if program.only_shows else _end_with,
     )
 
 

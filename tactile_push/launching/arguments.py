@@ -18,10 +18,11 @@ from tactile_push.parameters import (
 )
 from tactile_push.parameters.parameter import NodeParameters, Parameter, parameter
 
-ROBOTS = JOINTS, _ = ('finger', 'none')
+ROBOTS = JOINTS, AXIS, _ = ('finger', 'axis', 'none')
 OBJECTS = (paper.BLOCK, paper.DISK)
 LAW, PLANT = PushControllerParameters(), SimPlantParameters()
 SERVO = FingerServoParameters()
+SHOWS = 'show the run on a page for browsers, whose address live_page prints'
 
 
 @dataclass(frozen=True)
@@ -71,6 +72,7 @@ class DemoArguments(LaunchArguments):
         'simulated seconds a second, at the most', 0.01, 100.0)
     device: str = parameter(PLANT.device, '', 'where the simulated sensor and the driver meet')
     rviz: bool = parameter(True, '', 'start RViz')
+    watch: bool = parameter(True, '', SHOWS)
     # fmt: on
 
 
@@ -95,9 +97,10 @@ class FingerArguments(LaunchArguments):
         'needs none')
     robot: str = parameter(JOINTS, '',
         'what moves the tip: finger is the finger of two joints, whose description is published; '
-        'none is a machine without joint angles, whose tip does not turn', choices=ROBOTS)
+        'axis is one joint that slides a tip that does not turn; none is a machine without joints '
+        'that anybody has to know, whose tip does not turn', choices=ROBOTS)
     servo: bool = parameter(True, '',
-        'let finger_servo move the two joints by their velocities; false if the machine takes '
+        'let finger_servo move the joints by their velocities; false if the machine takes '
         'finger/cmd_vel itself')
     object: str = parameter(paper.BLOCK, '',
         f"what is pushed: {' or '.join(OBJECTS)} of the paper, or a parameter file of one's own")
@@ -106,6 +109,7 @@ class FingerArguments(LaunchArguments):
         'let sim_plant take the place of the machine, on simulated time and this computer alone')
     record: bool = parameter(False, '', 'record the topics into a bag')
     rviz: bool = parameter(False, '', 'start RViz')
+    watch: bool = parameter(False, '', SHOWS)
     belt_speed: float = shared.belt_speed
     finger_radius: float = shared.finger_radius
     proximal_length: float = shared.proximal_length
@@ -113,21 +117,24 @@ class FingerArguments(LaunchArguments):
     mount_angle: float = shared.mount_angle
     joint_names: list[str] = parameter(shared.JOINT_NAMES, '',
         'the two moving joints of the finger in joint_states from the base to the tip, and a wrist '
-        'that holds the tip straight if there is one')
-    joint_min: list[float] = parameter(SERVO.joint_min, 'rad', 'least angle of each of the two')
-    joint_max: list[float] = parameter(SERVO.joint_max, 'rad', 'greatest angle of each of the two')
+        'that holds the tip straight if there is one; of an axis its only joint')
+    joint_min: list[float] = parameter(SERVO.joint_min, 'rad',
+        'least angle of each of the two; of an axis its least position [m]')
+    joint_max: list[float] = parameter(SERVO.joint_max, 'rad',
+        'greatest angle of each of the two; of an axis its greatest position [m]')
     joint_speed: list[float] = parameter(SERVO.joint_speed, 'rad/s',
-        'greatest speed of each of the two')
+        'greatest speed of each of the two; of an axis in m/s')
     # fmt: on
 
     def __post_init__(self) -> None:
-        if not len(self.joint_names) == len(set(self.joint_names)) in (2, 3):
-            raise ValueError(
-                f'joint_names: expected two or three different names, got {self.joint_names}'
-            )
-        for name in ('joint_min', 'joint_max', 'joint_speed'):
-            if len(getattr(self, name)) != 2:
-                raise ValueError(f'{name}: expected two numbers, got {getattr(self, name)}')
+        fewest, most, names, numbers = 2, 3, 'two or three different names', 'two numbers'
+        if self.robot == AXIS:
+            fewest, most, names, numbers = 1, 1, 'one name for an axis', 'one number for an axis'
+        if not fewest <= len(set(self.joint_names)) == len(self.joint_names) <= most:
+            raise ValueError(f'joint_names: expected {names}, got {self.joint_names}')
+        for name in BOUNDS:
+            if len(getattr(self, name)) != fewest:
+                raise ValueError(f'{name}: expected {numbers}, got {getattr(self, name)}')
 
     @property
     def machine(self) -> dict[str, Any]:
@@ -135,6 +142,7 @@ class FingerArguments(LaunchArguments):
         return {name: getattr(self, name) for name in MACHINE}
 
 
+BOUNDS = ('joint_min', 'joint_max', 'joint_speed')
 MACHINE = (
     'belt_speed',
     'finger_radius',
@@ -142,9 +150,7 @@ MACHINE = (
     'distal_length',
     'mount_angle',
     'joint_names',
-    'joint_min',
-    'joint_max',
-    'joint_speed',
+    *BOUNDS,
 )
 
 

@@ -23,6 +23,8 @@ from tactile_push.interface import (
     FORCE_TORQUE,
     IMAGE,
     JOINT_VELOCITIES,
+    LINEAR,
+    LIVE_PAGE,
     PLANTS,
     PUSH_CONTROLLER,
     SENTENCE,
@@ -32,9 +34,16 @@ from tactile_push.interface import (
     WRENCH_SENSOR,
     WRIST_JOINT,
 )
-from tactile_push.launching.arguments import JOINTS, DemoArguments, FingerArguments
+from tactile_push.launching.arguments import (
+    AXIS,
+    BOUNDS,
+    JOINTS,
+    DemoArguments,
+    FingerArguments,
+)
 from tactile_push.launching.files import launch_values, object_file, own_name, read_file
 from tactile_push.launching.robot import robot_description
+from tactile_push.needs_aiohttp import missing_for_the_page
 from tactile_push.parameters import PARAMETERS, config_file, shared
 from tactile_push.parameters.ros_file import Sections, matches
 from tactile_push.parameters.sensor_kinds import SENSOR_KINDS
@@ -56,6 +65,7 @@ class Program:
     arguments: tuple[str, ...] = ()  #: on its command line, before those of ROS
     remappings: tuple[tuple[str, str], ...] = ()  #: names of topics, and what they become
     without: str = ''  #: argument of the launch file that leaves it out; '' if none does
+    only_shows: bool = False  #: whether the others go on when it fails
 
 
 @dataclass(frozen=True)
@@ -92,9 +102,12 @@ def demo_plan(texts: Mapping[str, str]) -> Plan:
     }
     machine = FingerArguments().machine
     files = [read_file(config_file(f'{p.object}.yaml'))]
-    nodes = [p.plant, SENSOR_KINDS[SENTENCE].node, *_LOOP]
+    names = [p.plant, SENSOR_KINDS[SENTENCE].node, *_LOOP]
+    nodes = [_node(node, '', files, values) for node in names]
+    if p.watch:
+        nodes.append(_page('', files, values))
     shown = _shown(machine, values, rviz=p.rviz)
-    return Plan((*shown, *(_node(node, '', files, values) for node in nodes)), '', simulated=True)
+    return Plan((*shown, *nodes), '', simulated=True)
 
 
 def finger_plan(texts: Mapping[str, str]) -> Plan:
@@ -128,9 +141,9 @@ def finger_plan(texts: Mapping[str, str]) -> Plan:
         files.append(_calibration(p, kind.node))
     own = {kind.node: kind.parameters, ACTIVE_SENSING: kind.sensing} if p.sim else {}
     names = [kind.node, *_LOOP]
-    if p.robot == JOINTS and p.servo:
+    if moved := _moved_by_servo(p, values):
         names.append(FINGER_SERVO)
-        own[FINGER_SERVO] = {'joint_names': values['joint_names'][:2]}  # a wrist is another's
+        own[FINGER_SERVO] = moved
     nodes = [_node(node, p.namespace, files, values, own.get(node)) for node in names]
     if p.sim:
         if not any(own_name(section) == SIM_PLANT for section in files[1]):
@@ -141,6 +154,8 @@ def finger_plan(texts: Mapping[str, str]) -> Plan:
         nodes[0] = replace(nodes[0], remappings=_heard_of(p))
     if p.record:
         nodes.append(_node(BAG_RECORDER, p.namespace, files, values))
+    if p.watch:
+        nodes.append(_page(p.namespace, files, values))
     shown = _shown(values if p.robot == JOINTS else None, values, rviz=p.rviz)
     return Plan((*shown, *nodes), p.namespace, p.sim)
 
@@ -174,12 +189,26 @@ def _values(p: FingerArguments) -> dict[str, Any]:
     """Return values for all nodes that declare parameters of these names."""
     values = p.machine
     if p.robot != JOINTS:
+        values = {name: value for name, value in values.items() if name not in _OF_JOINTS}
         values |= {'use_joint_states': False, 'without_psi': STRAIGHT}
-    if p.sim:
+    elif p.sim:
         # As the plant names its joints, whatever those of the machine are called.
         values['joint_names'] = [*shared.JOINT_NAMES, WRIST_JOINT][: len(p.joint_names)]
+    if p.sim:
         values |= {'device': shared.DEVICE, 'use_sim_time': True}
     return values
+
+
+_OF_JOINTS = ('joint_names', *BOUNDS)  # which mean nothing without a finger of joints
+
+
+def _moved_by_servo(p: FingerArguments, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what the servo is told of the joints that it moves; empty if it moves none."""
+    if p.servo and p.robot == JOINTS:
+        return {'joint_names': values['joint_names'][:2]}  # a wrist is another's
+    if p.servo and p.robot == AXIS and not p.sim:  # the simulated finger has no axis
+        return {'kinematics': LINEAR, **{name: p.machine[name] for name in _OF_JOINTS}}
+    return {}
 
 
 def _plant_values(p: FingerArguments, kind: Mapping[str, Any], sensor: Program) -> dict[str, Any]:
@@ -250,11 +279,20 @@ def _shown(
         arguments = ['-d', str(config_file('demo.rviz'))]
         if machine is None:  # nothing publishes frames
             arguments += ['--fixed-frame', FINGER_DISK]
-        shown.append(Program(RVIZ, RVIZ, time, tuple(arguments), OWN_TF, without='rviz:=false'))
+        shown.append(
+            Program(RVIZ, RVIZ, time, tuple(arguments), OWN_TF, 'rviz:=false', only_shows=True)
+        )
     if machine is not None:
         described = {'robot_description': robot_description(machine), **time}
         shown.append(Program(STATE_PUBLISHER, STATE_PUBLISHER, described, (), OWN_TF))
     return shown
+
+
+def _page(namespace: str, files: list[Sections], values: Mapping[str, Any]) -> Program:
+    """Return the page for browsers; ValueError if its library is missing."""
+    if needed := missing_for_the_page():
+        raise ValueError(f'{LIVE_PAGE} {needed}, or start without it: watch:=false')
+    return replace(_node(LIVE_PAGE, namespace, files, values), only_shows=True)
 
 
 def _time(values: Mapping[str, Any]) -> dict[str, Any]:

@@ -68,6 +68,19 @@ def test_a_finger_has_two_joints_and_perhaps_a_wrist(wrong):
     assert FingerArguments(joint_names=['a', 'b', 'wrist']).joint_names[2] == 'wrist'
 
 
+def test_an_axis_has_one_joint():
+    given = {
+        'joint_names': ['slide'],
+        'joint_min': [-0.1],
+        'joint_max': [0.1],
+        'joint_speed': [0.05],
+    }
+    assert FingerArguments(robot='axis', **given).joint_names == ['slide']
+    for name, value in given.items():
+        with pytest.raises(ValueError, match=f'^{name}: expected one .* for an axis'):
+            FingerArguments(robot='axis', **{**given, name: 2 * value})
+
+
 def test_facts_about_the_machine_are_those_that_nodes_declare_alike():
     declared = [{p.name: p for p in kind.declared()} for kind in PARAMETERS.values()]
     for fact in FingerArguments.declared():

@@ -1,10 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
 
+import sys
+
 import pytest
 
 from tactile_push.launching import demo_plan, finger_plan
-from tactile_push.parameters import PARAMETERS
+from tactile_push.parameters import PARAMETERS, FingerServoParameters
+from tactile_push.parameters.finger_servo import make_servo
 from tactile_push.tactile import PlanarFinger
 
 pytest.importorskip('xacro', reason='pip install xacro')
@@ -103,6 +106,50 @@ def test_machine_without_joints_has_no_description_and_a_tip_that_does_not_turn(
     assert values(plan, 'active_sensing')['without_psi'] == 'straight'
     assert plan.programs[0].arguments[-2:] == ('--fixed-frame', 'finger_disk')
     assert values(finger_plan({'robot': 'none', 'sim': 'true'}), 'sim_plant')['tip_turns'] is False
+
+
+AXIS = {
+    'robot': 'axis',
+    'joint_names': '[slide]',
+    'joint_min': '[-0.1]',
+    'joint_max': '[0.12]',
+    'joint_speed': '[0.05]',
+}
+
+
+def test_axis_is_moved_by_the_servo_and_its_tip_does_not_turn():
+    plan = finger_plan(AXIS)
+    assert names(plan) == ['sensor_driver', *LOOP, 'finger_servo']
+    servo = values(plan, 'finger_servo')
+    assert (servo['kinematics'], servo['joint_names']) == ('linear', ['slide'])
+    assert [servo[f'joint_{name}'] for name in ('min', 'max', 'speed')] == [[-0.1], [0.12], [0.05]]
+    make_servo(FingerServoParameters.of(servo))  # which refuses limits that leave no workspace
+    for node in ('contact_geometry', 'push_controller'):
+        assert values(plan, node)['use_joint_states'] is False
+        assert 'joint_names' not in values(plan, node)
+    assert values(plan, 'active_sensing')['without_psi'] == 'straight'
+
+
+def test_simulation_stands_in_for_an_axis_with_a_tip_that_does_not_turn():
+    plan = finger_plan({**AXIS, 'sim': 'true'})
+    assert names(plan) == ['sim_plant', 'sensor_driver', *LOOP]
+    assert values(plan, 'sim_plant')['tip_turns'] is False
+    assert 'commands' not in values(plan, 'sim_plant')
+
+
+def test_page_shows_the_run_if_asked_for_and_nobody_needs_it():
+    pytest.importorskip('aiohttp', reason="pip install 'tactile_push[watch]'")
+    (page,) = (p for p in finger_plan({'watch': 'true'}).programs if p.executable == 'live_page')
+    assert page.only_shows
+    needed = [p.executable for p in finger_plan({'rviz': 'true'}).programs if not p.only_shows]
+    assert needed == ['robot_state_publisher', 'sensor_driver', *LOOP, 'finger_servo']
+
+
+def test_without_the_library_of_the_page_it_says_how_to_start(monkeypatch):
+    monkeypatch.setitem(sys.modules, 'aiohttp', None)
+    with pytest.raises(ValueError, match=r'^live_page needs aiohttp: pip .*: watch:=false$'):
+        demo_plan({})
+    assert 'live_page' not in names(demo_plan({'watch': 'false'}))
 
 
 def test_later_file_counts_more_and_arguments_most(own):
@@ -208,8 +255,16 @@ def test_object_that_the_plant_does_not_know_is_not_simulated(own):
 
 
 def test_demonstration_is_the_papers_rig():
+    pytest.importorskip('aiohttp', reason="pip install 'tactile_push[watch]'")
     plan = demo_plan({'object': 'disk', 'kp': '0.06', 'real_time_factor': '5'})
-    assert names(plan) == ['rviz2', 'robot_state_publisher', 'sim_plant', 'sensor_driver', *LOOP]
+    assert names(plan) == [
+        'rviz2',
+        'robot_state_publisher',
+        'sim_plant',
+        'sensor_driver',
+        *LOOP,
+        'live_page',
+    ]
     assert plan.simulated
     assert values(plan, 'sim_plant')['object'] == 'disk'
     assert values(plan, 'sim_plant')['real_time_factor'] == 5.0
@@ -218,7 +273,8 @@ def test_demonstration_is_the_papers_rig():
 
 
 def test_demonstration_with_other_physics_and_without_a_display():
-    plan = demo_plan({'plant': 'mujoco_plant', 'rviz': 'false', 'device': '/tmp/sensor'})
+    given = {'plant': 'mujoco_plant', 'rviz': 'false', 'watch': 'false', 'device': '/tmp/sensor'}
+    plan = demo_plan(given)
     assert names(plan) == ['robot_state_publisher', 'mujoco_plant', 'sensor_driver', *LOOP]
     for node in ('mujoco_plant', 'sensor_driver'):
         assert values(plan, node)['device'] == '/tmp/sensor'
