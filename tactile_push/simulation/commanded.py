@@ -55,11 +55,14 @@ class CommandedVelocity:
         """Stand, because the next command is overdue."""
         self.v_x = 0.0
 
-    def move(self, duration: float, now: float) -> None:
-        """Move for a while [s] up to a time [s]."""
+    def move(self, duration: float, now: float, presses: bool = False) -> None:
+        """Move for a while [s] up to a time [s].
+
+        `presses` lets the belt run before the first command, too.
+        """
         if self.overdue(now):
             self.v_x = 0.0
-        self._rig.step(self.v_x, duration, self.started)
+        self._rig.step(self.v_x, duration, self.started or presses)
 
 
 class CommandedJoints:
@@ -101,9 +104,9 @@ class CommandedJoints:
     def expire(self) -> None:
         """Go on: velocities stay in force."""
 
-    def move(self, duration: float, now: float) -> None:
-        """Move for a while [s]."""
-        self._rig.drive(self._rates, duration, self.started)
+    def move(self, duration: float, now: float, presses: bool = False) -> None:
+        """Move for a while [s]; `presses` lets the belt run before the first command, too."""
+        self._rig.drive(self._rates, duration, self.started or presses)
 
     def _velocity(self, rates: Sequence[float]) -> tuple[float, float]:
         return disk_velocity(self._rig.config.finger.levers(self._rig.joints[:2]), rates)

@@ -26,6 +26,7 @@ from tactile_push.mechanics import (
 from tactile_push.mechanics.compiled import Array
 from tactile_push.simulation.faults import NO_FAULTS, Faults
 from tactile_push.simulation.mujoco_model import (
+    GRAVITY,
     MOST_FRICTION,
     SAG,
     TIME_STEP,
@@ -46,6 +47,7 @@ from tactile_push.tactile.planar_finger import pole_angle
 
 SETTLING = 0.2  # for the feet to take the weight [s]: five times as long as they swing
 RETREAT = 0.01  # of the tip meanwhile [m]
+LOOSE = 0.2  # share of the friction on the belt that a finger in contact feels at least; picked
 FIRST_DENT = 1e-6  # with which finger and object touch at the start [m]
 HOLD = 5.0  # rate at which the finger goes back to its line across the belt [1/s]; picked
 REACH = 1e-4  # the finger stays so far from the end of its reach [m], where joints would race
@@ -115,6 +117,17 @@ class MujocoRig:
         mujoco.mj_forward(self._model, self._data)
         self.time = 0.0
         self._look()
+
+    @property
+    def is_loose(self) -> bool:
+        """Whether the object presses less on the finger than one that the belt has carried there.
+
+        It is put down beside the finger, and while the belt stands it creeps away, as MuJoCo's
+        friction is viscous: after a minute a twentieth of the force is left.
+        """
+        weight = self.physics.mass * GRAVITY
+        force = math.hypot(*self.contact_force)
+        return self.touching and force < LOOSE * self.physics.mu_s * weight
 
     @property
     def finger_x(self) -> float:

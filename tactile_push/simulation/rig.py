@@ -253,6 +253,14 @@ class Rig:
         return directions(self.theta, math.atan2(sin_alpha, cos_alpha), self.phi)
 
     @property
+    def is_loose(self) -> bool:
+        """Whether the object presses less on the finger than one that the belt has carried there.
+
+        It never does here; in MuJoCo it may.
+        """
+        return False
+
+    @property
     def contact_force(self) -> tuple[float, float]:
         """What the finger exerts on the object, x and y in `finger_base` [N].
 

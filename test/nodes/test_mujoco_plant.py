@@ -2,18 +2,28 @@
 # SPDX-License-Identifier: Apache-2.0
 """The rig in MuJoCo as a node; what it shares with the other plant is tested there."""
 
+import math
 import sys
 
 import pytest
-from geometry_msgs.msg import TwistStamped
+from geometry_msgs.msg import TwistStamped, WrenchStamped
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
 from support.node_bench import declared_topics
-from tactile_push.interface import COMMAND, JOINT_STATES, MARKERS, MUJOCO_PLANT, TOPICS, TRUE_STATE
+from tactile_push.interface import (
+    COMMAND,
+    JOINT_STATES,
+    MARKERS,
+    MUJOCO_PLANT,
+    TOPICS,
+    TRUE_STATE,
+    WRENCH,
+)
 from tactile_push.nodes.mujoco_plant import MujocoPlant, main
 from tactile_push.nodes.ros.diagnostics import OK
 from tactile_push.nodes.ros.parameters import ConfigurationError
+from tactile_push.parameters import WrenchSensorParameters
 
 
 @pytest.fixture
@@ -41,6 +51,21 @@ def test_before_the_first_command_the_belt_stands(bench, plant):
     assert (state['theta'], state['d']) == pytest.approx((0.25, 0.004), abs=1e-4)
     assert state['belt_travel'] == pytest.approx(0.0, abs=1e-5)
     assert bench.health == (OK, 'belt stands, waiting for the first command')
+
+
+def test_before_the_first_command_a_sensor_of_force_feels_the_object(bench, plant):
+    node = plant(publish_wrench=True)
+    bench.hear(JointState, TRUE_STATE)
+    bench.hear(WrenchStamped, WRENCH)
+    bench.until(lambda: len(bench.heard[WRENCH]) > 5 and bench.heard[TRUE_STATE])
+    force = bench.heard[WRENCH][-1].wrench.force
+    # A fifth of the friction on the belt, and more than the sensor's node takes for a contact.
+    least = 0.2 * 0.3 * 0.93 * 9.81
+    assert (
+        math.hypot(force.x, force.y, force.z) > least - 0.05 > WrenchSensorParameters.contact_force
+    )
+    assert bench.values(TRUE_STATE)['belt_travel'] < 2e-4
+    assert not node._commanded.started
 
 
 def test_a_command_moves_the_finger_and_starts_the_belt(bench, plant):

@@ -32,6 +32,13 @@ def test_the_belt_stands_until_the_first_command(across):
     assert rig.belt_travel == pytest.approx(0.0005)
 
 
+def test_the_belt_may_press_the_object_before(across, joints):
+    for rig, commanded in (across, joints):
+        commanded.move(0.1, 0.1, presses=True)
+        assert not commanded.started
+        assert rig.belt_travel == pytest.approx(0.0005)
+
+
 @pytest.mark.parametrize(
     ('v_x', 'obeyed', 'kind'),
     [

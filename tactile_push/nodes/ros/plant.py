@@ -231,8 +231,9 @@ class PlantNode(Node, Generic[P]):
         return min(elapsed, LONGEST_STEP)
 
     def _move(self, step: float) -> None:
-        """Move belt, object and finger."""
-        self._commanded.move(step, self._now())
+        """Move belt, object and finger; a sensor of force begins with the object pressed to it."""
+        presses = self._wrench is not None and self._rig.is_loose
+        self._commanded.move(step, self._now(), presses)
         self._time += step
 
     def _step(self, step: float) -> None:
