@@ -43,6 +43,7 @@ bench: $(TEST_READY)
 faults: $(TEST_READY)
 	mkdir -p out
 	PYTHONPATH=test $(BIN)/python -m faults --json out/faults.json
+	PYTHONPATH=test $(BIN)/python -m faults.doctored
 
 fuzz: $(TEST_READY)
 	PYTHONPATH=test $(BIN)/python -m fuzzing

@@ -21,13 +21,15 @@ STANDSTILL = 0.1  # of the machine, after which a broken row says nothing of the
 ATTEMPTS = 3
 
 
-def start_bench(setup: Setup) -> Bench:
+def start_bench(setup: Setup, make: Callable[[Setup], Bench] = Bench) -> Bench:
     """Return a running bench.
 
     Parameters
     ----------
     setup : Setup
         What is to run.
+    make : callable, optional
+        Makes the bench.
 
     Returns
     -------
@@ -39,7 +41,7 @@ def start_bench(setup: Setup) -> Bench:
     BrokenPromiseError
         If it does not start; nothing is left of it then.
     """
-    bench = Bench(setup)
+    bench = make(setup)
     try:
         bench.start()
     except BaseException:

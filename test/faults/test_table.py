@@ -15,6 +15,7 @@ import pytest
 
 from faults import FAULTS
 from faults.checks import wrong_commands, wrong_contacts, wrong_readings, wrong_velocities
+from faults.doctored import NAMED, examining
 from faults.machine import HoldUps
 from faults.parameter_rows import wrong_values
 from faults.promise import (
@@ -25,7 +26,7 @@ from faults.promise import (
     Setup,
 )
 from faults.proxy import Corruption, DeviceProxy, Sent
-from faults.table import Runner, start_bench
+from faults.table import Runner
 from tactile_push.devices import Sentence, SentenceStream, encode
 from tactile_push.parameters import Parameter
 from tactile_push.tactile import NO_CONTACT, Reading
@@ -506,14 +507,24 @@ def test_device_goes_with_its_sensor(line):
 
 
 @pytest.fixture(scope='module')
-def real():
-    """Return a runner with real nodes for some rows."""
-    with Runner(start_bench) as runner:
+def found():
+    """List what the doctor finds wrong after the fault of a row."""
+    return []
+
+
+@pytest.fixture(scope='module')
+def real(found):
+    """Return a runner with real nodes, at which the doctor looks, for some rows."""
+    with examining(found) as runner:
         yield runner
 
 
+def test_doctor_looks_at_rows_that_there_are():
+    assert set(NAMED) <= {fault.name for fault in FAULTS}
+
+
 @pytest.mark.parametrize('name', ['driver killed', 'device unplugged', 'another command'])
-def test_real_row_is_held(real, name):
+def test_real_row_is_held_and_the_doctor_names_the_fault(real, found, name):
     (fault,) = [fault for fault in FAULTS if fault.name == name]
     for _ in range(TRIES):
         outcome = real.run(fault)
@@ -523,6 +534,7 @@ def test_real_row_is_held(real, name):
         assert {'late' if LATE.search(words) else words for words in outcome.broken} == {'late'}
     assert outcome.held
     assert 0.0 < outcome.reaction_ms < outcome.within_ms
+    assert NAMED[name] in [finding.subject for finding in found]
 
 
 def test_real_finger_that_nobody_stops_is_a_broken_promise(real):
