@@ -231,7 +231,7 @@ MISSING = (
 
 
 def test_joint_names_that_never_come_are_told_before_the_first_contact_and_stop_the_finger(bench):
-    bench.start(PushController, **RATE, **WRONG_NAMES)
+    bench.start(PushController, **{**RATE, **WRONG_NAMES, 'joint_state_timeout': 0.5})
     bench.hear(JointState, CONTROLLER_STATE)
     place = at(bench, bench.publisher(JointState, JOINT_STATES), 0.0)
     bench.until(lambda: MISSING in bench.health[1], place)

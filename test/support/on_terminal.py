@@ -17,6 +17,7 @@ class OnTerminal:
     def __init__(self, words, environment, folder='.'):
         self._pid, self._terminal = pty.fork()
         if self._pid == 0:
+            signal.signal(signal.SIGINT, signal.SIG_DFL)  # as a shell does
             os.chdir(folder)
             os.execve(
                 sys.executable, [sys.executable, '-m', 'tactile_push.cli', *words], environment
