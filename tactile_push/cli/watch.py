@@ -8,9 +8,7 @@ from tactile_push.cli.arguments import Commands, namespace, number, port
 from tactile_push.cli.become import become
 from tactile_push.interface import LIVE_PAGE
 from tactile_push.needs_aiohttp import aiohttp_is_missing
-from tactile_push.parameters import LivePageParameters
 
-DEFAULTS = LivePageParameters()
 OPTIONS = ('host', 'port', 'history')  # which are parameters of the node
 
 
@@ -27,19 +25,19 @@ def add(commands: Commands) -> None:
         '--host',
         metavar='ADDRESS',
         help='address of this machine to listen on, 0.0.0.0 for all; anybody who can reach it can '
-        f'look (default: {DEFAULTS.host}, for this machine alone)',
+        'look (default: 127.0.0.1, for this machine alone)',
     )
     option(
         '--port',
         type=port,
         metavar='N',
-        help=f'port to listen on, 0 for any that is free (default: {DEFAULTS.port})',
+        help='port to listen on, 0 for any that is free (default: 8765)',
     )
     option(
         '--history',
         type=number('seconds from 1 to 600', 1.0, 600.0),
         metavar='S',
-        help=f'how far back the page shows (default: {DEFAULTS.history:g})',
+        help='how far back the page shows (default: 60)',
     )
     option(
         '--namespace',

@@ -4,6 +4,8 @@
 
 import argparse
 import math
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -122,3 +124,12 @@ def test_unknown_option_points_to_the_help_of_its_command():
         'tactile_push record: error: unrecognized arguments: --outt; '
         'see tactile_push record --help\n'
     )
+
+
+def test_the_words_are_understood_before_anything_heavy_is_imported():
+    program = (
+        'import sys; from tactile_push.cli import command_parser; command_parser(); '
+        "print({'numpy', 'numba', 'mcap', 'yaml', 'rclpy'} & sys.modules.keys())"
+    )
+    done = subprocess.run([sys.executable, '-c', program], capture_output=True, text=True)
+    assert done.stdout == 'set()\n', done.stderr

@@ -6,6 +6,8 @@ import sys
 
 import pytest
 
+from tactile_push.parameters import LivePageParameters
+
 
 @pytest.fixture
 def aiohttp():
@@ -23,6 +25,13 @@ def test_every_word_becomes_a_parameter_or_the_namespace(become, aiohttp):
     assert node == 'live_page'
     assert given == {'host': '0.0.0.0', 'port': 0, 'history': 120.0, '__ns': '/left'}
     assert isinstance(given['history'], float)  # as the node insists
+
+
+def test_help_tells_the_defaults_of_the_node(command):
+    node = LivePageParameters()
+    said = ' '.join(command('watch', '--help')[1].split())
+    for default in (f'{node.host}, for this machine alone', node.port, f'{node.history:g}'):
+        assert f'(default: {default})' in said
 
 
 @pytest.mark.parametrize('name', ['left', '/left', '/left/'])
