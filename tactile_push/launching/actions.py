@@ -26,8 +26,7 @@ def launch_description(
     declared = kind.declared()
 
     def start(context: LaunchContext) -> list[Action]:
-        given = context.launch_configurations
-        return actions({known.name: given[known.name] for known in declared}, plan)
+        return actions(context.launch_configurations, plan)
 
     arguments = [
         DeclareLaunchArgument(

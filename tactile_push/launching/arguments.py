@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The arguments of the launch files, declared like the parameters of nodes."""
 
+import difflib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -22,6 +23,7 @@ ROBOTS = JOINTS, AXIS, _ = ('finger', 'axis', 'none')
 OBJECTS = (paper.BLOCK, paper.DISK)
 LAW, PLANT = PushControllerParameters(), SimPlantParameters()
 SERVO = FingerServoParameters()
+LIKENESS = 0.8  # of a name and the one that was meant; a file that includes ours has its own names
 SHOWS = 'show the run on a page for browsers, whose address live_page prints'
 
 
@@ -38,7 +40,8 @@ class LaunchArguments(NodeParameters):
         Parameters
         ----------
         texts : mapping of str to str
-            Texts by argument. One that is empty was not given.
+            Texts by argument, perhaps with others that are not ours. One that is empty was not
+            given.
 
         Returns
         -------
@@ -48,8 +51,12 @@ class LaunchArguments(NodeParameters):
         Raises
         ------
         ValueError
-            If a text is no value of its argument.
+            If a text is no value of its argument, or a name looks like a slip of ours.
         """
+        names = [known.name for known in cls.declared()]
+        for name in texts.keys() - names:
+            for similar in difflib.get_close_matches(name, names, 1, LIKENESS):
+                raise ValueError(f'argument {name}: unknown, did you mean {similar}?')
         return {
             known.name: _value(known, texts[known.name])
             for known in cls.declared()

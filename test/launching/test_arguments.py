@@ -52,6 +52,19 @@ def test_text_that_is_no_value_is_refused_by_name(kind, name, text, expected):
 
 
 @pytest.mark.parametrize(
+    ('name', 'meant'), [('belt_sped', 'belt_speed'), ('sensors', 'sensor'), ('sm', 'sim')]
+)
+def test_name_that_looks_like_a_slip_is_refused(name, meant):
+    with pytest.raises(ValueError, match=f'^argument {name}: unknown, did you mean {meant}\\?$'):
+        FingerArguments.read({'sim': 'true', name: ''})
+
+
+def test_names_of_who_includes_the_file_are_not_ours():
+    others = {'robot_description': '<robot/>', 'log_level': 'info', 'x': ''}
+    assert FingerArguments.read({'sim': 'true', **others}) == {'sim': True}
+
+
+@pytest.mark.parametrize(
     'wrong',
     [
         {'joint_names': ['a']},
