@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Faults of a finger that `finger_servo` moves by its joints."""
 
+import math
 import signal
 import time
 
@@ -21,6 +22,7 @@ SERVOED = Setup(servo=True, relay=JOINT_STATES)
 WITHOUT_SERVO = 0.6  # for so long a drive is watched that has lost its servo [s]
 FOREIGN = [0.02, 0.0]  # velocities of somebody else, so slow that the finger follows [rad/s]
 NEAR = 0.01  # as far are the joint limits from where the second joint is [rad]
+BEYOND = 0.7  # from the angle of the edge to one that turns phi round in three seconds [rad]
 PERIODS = 0.1  # of the plant, in which it tells where it stands [s]
 # Commanded way after which a drive that stands is noticed, 2.2 mm, and what it goes meanwhile [m].
 NOTICED = 3e-3
@@ -194,7 +196,11 @@ def joint_limit(bench: Bench) -> None:
     finger.expect_servo('joint limit', patience=20.0)
     _, at_limit = finger.joints()
     expect(abs(at_limit - distal) <= NEAR, f'{abs(at_limit - distal) - NEAR:.4f} rad beyond it')
-    _goes_on(finger)
+    # The object turns on against the standing finger. An angle beyond it is what asks for the way
+    # back, whatever the rows before have made of the object.
+    beyond = math.copysign(BEYOND, -field(finger.states[-1], 'v_x'))
+    finger.ask_for(finger.ground_truth('theta') + beyond)
+    finger.wait_until_moving(10.0)
     finger.kill(SERVO)
     finger.begin(SERVO)
     _goes_on(finger)
