@@ -37,7 +37,8 @@ class Pushes:
 
 def read_pushes(file: Path) -> Pushes:
     """Read a file of pushes."""
-    outline, centre_of_mass = read_object(file)
+    thing = read_object(file)
+    outline, centre_of_mass = thing.outline, thing.centre_of_mass
     content = json.loads(file.read_text())
     try:
         radius = _numbers('tip_radius', [content.get('tip_radius')], 1)[0]

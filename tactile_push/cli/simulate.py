@@ -24,8 +24,8 @@ from tactile_push.paper import (
 )
 
 if TYPE_CHECKING:
-    from tactile_push.mechanics import Outline, Support
-    from tactile_push.simulation import RigConfig, Rollout
+    from tactile_push.mechanics import Support
+    from tactile_push.simulation import ObjectFile, RigConfig, Rollout
 
 
 def add(commands: Commands) -> None:
@@ -41,13 +41,20 @@ def add(commands: Commands) -> None:
     option('--object', default=BLOCK, metavar='block|disk|FILE', help='what is pushed (FILE: JSON)')
     option(
         '--support',
-        default='uniform',
+        default=argparse.SUPPRESS,
         metavar='corners|uniform|circle:RADIUS_M|rim|FILE',
-        help='what the object rests on; RADIUS_M in metres, FILE is JSON',
+        help='what the object rests on; RADIUS_M in metres, FILE is JSON (default: as the file of '
+        'the object says, otherwise uniform)',
     )
     option('--surface', default='ellipsoid', choices=('ellipsoid', 'exact'), help='limit surface')
     mu = number('a coefficient of friction of 0 or more, or inf', 0.0, math.inf)
-    option('--mu-c', type=mu, default=math.inf, metavar='X|inf', help='friction at the finger')
+    option(
+        '--mu-c',
+        type=mu,
+        default=argparse.SUPPRESS,
+        metavar='X|inf',
+        help='friction at the finger (default: as the file of the object says, otherwise inf)',
+    )
     gain = number('a finite gain of 0 or more', 0.0, sys.float_info.max)
     option('--kp', type=gain, default=KP, metavar='X', help='proportional gain [rad/rad]')
     option('--kd', type=gain, default=KD, metavar='X', help='derivative gain [rad/rad]')
@@ -123,18 +130,23 @@ def _run(options: argparse.Namespace) -> 'tuple[Rollout, RigConfig]':
     from tactile_push.mechanics import Slider
     from tactile_push.simulation import RigConfig, rollout
 
-    outline, centre_of_mass = _outline(options.object)
+    thing = _object(options.object)
+    support, mu_c = thing.support, math.inf if thing.mu_c is None else thing.mu_c
+    if hasattr(options, 'support') or support is None:
+        support = _support(getattr(options, 'support', 'uniform'), thing)
     slider = Slider.on(
-        outline,
-        _support(options.support, outline, centre_of_mass),
+        thing.outline,
+        support,
         exact=options.surface == 'exact',
-        centre_of_mass=centre_of_mass,
+        centre_of_mass=thing.centre_of_mass,
     )
     d = D_INITIAL if options.object == BLOCK else None
     if hasattr(options, 'd0_mm'):
         d = options.d0_mm / 1000.0
     theta = math.radians(options.theta0_deg)
-    config = RigConfig(slider, options.mu_c, theta, d, tip_turns=False)  # as in the equations
+    config = RigConfig(
+        slider, getattr(options, 'mu_c', mu_c), theta, d, tip_turns=False
+    )  # as in the equations
     phi = math.radians(options.phi0_deg)
     law = PushLaw(options.kp, options.kd, math.radians(options.theta_desired_deg))
     if not options.open_loop and not law.phi_min <= phi <= law.phi_max:
@@ -176,28 +188,27 @@ def _print(run: 'Rollout', config: 'RigConfig', settled: int | None, wanted_deg:
     )
 
 
-def _outline(thing: str) -> 'tuple[Outline, tuple[float, float] | None]':
-    """Return an object's outline and its centre of mass, if that is known."""
+def _object(thing: str) -> 'ObjectFile':
+    """Return what is known of an object."""
     from tactile_push.cli.output import naming
     from tactile_push.mechanics import Outline
-    from tactile_push.simulation import read_object
+    from tactile_push.simulation import ObjectFile, read_object
 
     if thing == BLOCK:
-        return Outline.rectangle(BLOCK_EDGE, BLOCK_DEPTH), None
+        return ObjectFile(Outline.rectangle(BLOCK_EDGE, BLOCK_DEPTH))
     if thing == DISK:
-        return Outline.circle(DISK_RADIUS), None
+        return ObjectFile(Outline.circle(DISK_RADIUS))
     with naming(thing, '--object'):
         return read_object(Path(thing))
 
 
-def _support(
-    name: str, outline: 'Outline', centre_of_mass: tuple[float, float] | None
-) -> 'Support':
+def _support(name: str, thing: 'ObjectFile') -> 'Support':
     """Return what the object rests on."""
     from tactile_push.cli.output import naming
     from tactile_push.mechanics import Outline, Support
     from tactile_push.simulation import read_support
 
+    outline, centre_of_mass = thing.outline, thing.centre_of_mass
     if name in ('corners', 'uniform', 'rim'):
         support = getattr(Support, name)(outline)
         return support if centre_of_mass is None else support.carrying(centre_of_mass)

@@ -9,7 +9,13 @@ from tactile_push.simulation.experiment import control_periods, experiment
 from tactile_push.simulation.faults import Faults
 from tactile_push.simulation.force_sensor import ForceReadout, ForceSensor, Mount
 from tactile_push.simulation.joint_rig import JointRig, servoed
-from tactile_push.simulation.object_files import read_object, read_support
+from tactile_push.simulation.object_files import (
+    ObjectFile,
+    object_of,
+    read_json,
+    read_object,
+    read_support,
+)
 from tactile_push.simulation.rig import Rig, RigConfig, paper_block, paper_disk
 from tactile_push.simulation.rollout import Rollout, rollout
 from tactile_push.simulation.sensor import Readout, Sensor
@@ -23,6 +29,7 @@ __all__ = [
     'ForceSensor',
     'JointRig',
     'Mount',
+    'ObjectFile',
     'Readout',
     'Rig',
     'RigConfig',
@@ -33,8 +40,10 @@ __all__ = [
     'Workspace',
     'control_periods',
     'experiment',
+    'object_of',
     'paper_block',
     'paper_disk',
+    'read_json',
     'read_object',
     'read_support',
     'rollout',

@@ -2,17 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Objects and supports as JSON files, lengths in metres.
 
-An object: {"outline": OUTLINE, "centre_of_mass": [x, y]}, the centre of mass if it is known, with
-one of the outlines {"kind": "polygon", "vertices": [[x, y], ...]}, {"kind": "circle", "radius": R},
-{"kind": "ellipse", "semi_axes": [a, b]}, {"kind": "smooth", "points": [[x, y], ...]}. A support:
-{"points": [[x, y], ...], "loads": [w, ...]}. If the loads are left out, they are those under the
-centre of mass, or all alike if that is not known.
+An object: {"outline": OUTLINE, "centre_of_mass": [x, y], "support": SUPPORT, "mu_c": F}, of which
+only the outline must be known. It is one of {"kind": "polygon", "vertices": [[x, y], ...]},
+{"kind": "circle", "radius": R}, {"kind": "ellipse", "semi_axes": [a, b]}, {"kind": "smooth",
+"points": [[x, y], ...]}. A support: {"points": [[x, y], ...], "loads": [w, ...]}. If the loads are
+left out, they are those under the centre of mass; if that is not known, all alike or, of an
+object's support, those under the centroid. That may also be {"spread": S}, see `Support.spread`.
 """
 
 import json
 import reprlib
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -23,8 +25,19 @@ from tactile_push.small_files import read_small_file
 Form = tuple[Callable[[Any], bool], str]
 
 
-def read_object(file: Path) -> tuple[Outline, tuple[float, float] | None]:
-    """Read an object's outline.
+@dataclass(frozen=True, eq=False)
+class ObjectFile:
+    """What a file says of an object."""
+
+    outline: Outline  #: in the file's frame
+    #: centre of mass (x, y) [m]; None if it is not known
+    centre_of_mass: tuple[float, float] | None = None
+    support: Support | None = None  #: what it rests on; None if that is not known
+    mu_c: float | None = None  #: friction between finger and object; None if it is not known
+
+
+def read_object(file: Path) -> ObjectFile:
+    """Read an object.
 
     Parameters
     ----------
@@ -33,22 +46,43 @@ def read_object(file: Path) -> tuple[Outline, tuple[float, float] | None]:
 
     Returns
     -------
-    outline : Outline
-        The outline in the file's frame.
-    centre_of_mass : tuple of float or None
-        Centre of mass (x, y) [m], if the file has one.
+    ObjectFile
+        What it says.
 
     Raises
     ------
     OSError
         If the file cannot be read.
     ValueError
-        If the file has another form, or the outline is not convex or far too large.
+        If the file has another form, the outline is not convex or far too large, or the support
+        cannot carry the weight.
     """
-    content = _read(file)
+    return object_of(read_json(file), file)
+
+
+def object_of(content: dict[str, Any], file: Path) -> ObjectFile:
+    """Read an object from the content of a file.
+
+    Parameters
+    ----------
+    content : dict
+        The content.
+    file : Path
+        The file, for what is said of it.
+
+    Returns
+    -------
+    ObjectFile
+        What it says.
+
+    Raises
+    ------
+    ValueError
+        As `read_object` does.
+    """
     outline = content.get('outline')
     outline = outline if isinstance(outline, dict) else {}
-    kind, centre = outline.get('kind'), content.get('centre_of_mass')
+    kind, centre, mu_c = outline.get('kind'), content.get('centre_of_mass'), content.get('mu_c')
     try:
         if not (isinstance(kind, str) and kind in OUTLINES):
             raise ValueError(
@@ -62,9 +96,14 @@ def read_object(file: Path) -> tuple[Outline, tuple[float, float] | None]:
         if centre is not None:
             x, y = _checked('centre_of_mass', centre, PAIR)
             centre = float(x), float(y)
+        if mu_c is not None:
+            mu_c = float(_checked('mu_c', mu_c, FRICTION))
+        support = content.get('support')
+        if support is not None:
+            support = _support_of_object(support, made, centre)
     except ValueError as error:
         raise ValueError(f'{file}: {error}') from None
-    return made, centre
+    return ObjectFile(made, centre, support, mu_c)
 
 
 def read_support(file: Path, centre_of_mass: tuple[float, float] | None = None) -> Support:
@@ -89,22 +128,59 @@ def read_support(file: Path, centre_of_mass: tuple[float, float] | None = None) 
     ValueError
         If the file has another form, or the object would tip over.
     """
-    content = _read(file)
+    content = read_json(file)
     if 'points' not in content:
         raise ValueError(f'{file}: expected "points", got {reprlib.repr(list(content))}')
     try:
-        points, loads = _checked('points', content['points'], PAIRS), content.get('loads')
-        if loads is not None:
-            loads = _checked('loads', loads, NUMBERS)
-        support = Support.at_points(points, loads)
-        if loads is None and centre_of_mass is not None:
-            support = support.carrying(centre_of_mass)
-        return support
+        return _points(content, centre_of_mass)
     except ValueError as error:
         raise ValueError(f'{file}: {error}') from None
 
 
-def _read(file: Path) -> dict[str, Any]:
+def _points(content: dict[str, Any], centre_of_mass: tuple[float, float] | None) -> Support:
+    points, loads = _checked('points', content['points'], PAIRS), content.get('loads')
+    if loads is not None:
+        loads = _checked('loads', loads, NUMBERS)
+    support = Support.at_points(points, loads)
+    if loads is None and centre_of_mass is not None:
+        support = support.carrying(centre_of_mass)
+    return support
+
+
+def _support_of_object(
+    content: Any, outline: Outline, centre_of_mass: tuple[float, float] | None
+) -> Support:
+    if not (isinstance(content, dict) and not {'points', 'spread'}.isdisjoint(content)):
+        raise ValueError(f'support: expected points or a spread, got {reprlib.repr(content)}')
+    try:
+        if 'points' in content:
+            return _points(content, centre_of_mass or Support.uniform(outline, 1).centre)
+        support = Support.spread(outline, _checked('spread', content['spread'], SHARE))
+        return support if centre_of_mass is None else support.carrying(centre_of_mass)
+    except ValueError as error:
+        raise ValueError(f'support: {error}') from None
+
+
+def read_json(file: Path) -> dict[str, Any]:
+    """Read a JSON object.
+
+    Parameters
+    ----------
+    file : Path
+        The file.
+
+    Returns
+    -------
+    dict
+        Its content.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be read.
+    ValueError
+        If it holds anything else.
+    """
     try:
         content = json.loads(read_small_file(file).decode())
     except RecursionError:
@@ -126,7 +202,8 @@ def _is_pair(value: Any) -> bool:
     return isinstance(value, list) and len(value) == 2 and all(map(_is_number, value))
 
 
-def _are_numbers(value: Any) -> bool:
+def are_numbers(value: Any) -> bool:
+    """Return whether a value of a file is a list of finite numbers."""
     return isinstance(value, list) and all(map(_is_number, value))
 
 
@@ -148,10 +225,12 @@ def _ellipse(semi_axes: list[float]) -> Outline:
     return Outline.ellipse(*semi_axes)
 
 
+FRICTION: Form = (lambda value: _is_number(value) and value >= 0.0, 'a number of 0 or more')
+SHARE: Form = (_is_number, 'a finite number')
 NUMBER: Form = (_is_number, 'a finite number [m]')
 PAIR: Form = (_is_pair, 'two finite numbers [m]')
 PAIRS: Form = (_are_pairs, 'a list of points [x, y], finite numbers [m]')
-NUMBERS: Form = (_are_numbers, 'a list of finite numbers of 0 or more')
+NUMBERS: Form = (are_numbers, 'a list of finite numbers of 0 or more')
 OUTLINES: dict[str, tuple[Callable[[Any], Outline], str, Form]] = {
     'polygon': (Outline.polygon, 'vertices', PAIRS),
     'circle': (Outline.circle, 'radius', NUMBER),

@@ -1082,3 +1082,20 @@ def test_a_plot_for_which_something_is_missing_fails_in_one_line(command, tmp_pa
     status, _, err = command('--plot', file, '--steps', 3)
 
     assert (status == 0 and file.exists()) or (status == 2 and err.count('\n') == 1)
+
+
+def test_an_object_s_file_may_say_support_and_friction(simulate, write):
+    thing = polygon(BLOCK, support=STAR, mu_c=0.2)
+    said, asked = write(thing), write(polygon(BLOCK), 'plain.json')
+    words = ['--steps', '5']
+
+    found = simulate('--object', said, *words)
+
+    star = write(STAR, 'star.json')
+    expected = simulate('--object', asked, '--support', star, '--mu-c', '0.2', *words)
+    assert found['c'] == pytest.approx(0.0187)
+    assert found['theta'] == pytest.approx(expected['theta'], abs=1e-12)
+    other = simulate('--object', said, '--support', 'corners', '--mu-c', 'inf', *words)
+    plain = simulate('--object', asked, '--support', 'corners', *words)
+    assert other['theta'] == pytest.approx(plain['theta'], abs=1e-12)
+    assert (other['c'], plain['c']) == pytest.approx([math.hypot(*BLOCK[0])] * 2)

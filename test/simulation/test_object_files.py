@@ -13,6 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tactile_push.mechanics import Support
 from tactile_push.simulation import read_object, read_support
 
 TRIANGLE = [[0.01, 0.02], [0.05, 0.02], [0.02, 0.06]]
@@ -39,7 +40,8 @@ def area_and_perimeter(outline):
 
 
 def test_a_polygon_keeps_its_frame_and_its_first_edge(write):
-    outline, centre = read_object(write({'outline': {'kind': 'polygon', 'vertices': TRIANGLE}}))
+    thing = read_object(write({'outline': {'kind': 'polygon', 'vertices': TRIANGLE}}))
+    outline, centre = thing.outline, thing.centre_of_mass
 
     assert centre is None
     assert outline.points(1.0) == pytest.approx(np.array(TRIANGLE), abs=1e-16)
@@ -49,20 +51,22 @@ def test_a_polygon_given_clockwise_is_the_same_object(write):
     # The first edge goes from the first to the second corner, whichever way the file runs.
     backwards = [TRIANGLE[1], TRIANGLE[0], TRIANGLE[2]]
 
-    outline, _ = read_object(write({'outline': {'kind': 'polygon', 'vertices': backwards}}))
+    outline = read_object(write({'outline': {'kind': 'polygon', 'vertices': backwards}})).outline
 
     assert outline.points(1.0) == pytest.approx(np.array(TRIANGLE), abs=1e-16)
 
 
 def test_a_circle_has_its_radius(write):
-    outline, _ = read_object(write({'outline': {'kind': 'circle', 'radius': 0.03}}))
+    outline = read_object(write({'outline': {'kind': 'circle', 'radius': 0.03}})).outline
 
     assert outline.length == pytest.approx(2.0 * math.pi * 0.03, rel=1e-14)
     assert np.hypot(*outline.points(1e-3).T) == pytest.approx(0.03, rel=1e-12)
 
 
 def test_an_ellipse_has_its_half_axes_in_order(write):
-    outline, _ = read_object(write({'outline': {'kind': 'ellipse', 'semi_axes': [0.04, 0.02]}}))
+    outline = read_object(
+        write({'outline': {'kind': 'ellipse', 'semi_axes': [0.04, 0.02]}})
+    ).outline
 
     x, y = outline.points(1e-4).T
     assert (x / 0.04) ** 2 + (y / 0.02) ** 2 == pytest.approx(1.0, abs=1e-5)
@@ -74,7 +78,7 @@ def test_a_smooth_outline_is_the_curve_through_its_points(write):
     angles = np.linspace(0.0, 2.0 * math.pi, 24, endpoint=False)
     points = np.stack([0.01 + 0.03 * np.cos(angles), 0.03 * np.sin(angles)], axis=1)
 
-    outline, _ = read_object(write({'outline': {'kind': 'smooth', 'points': points.tolist()}}))
+    outline = read_object(write({'outline': {'kind': 'smooth', 'points': points.tolist()}})).outline
 
     assert np.hypot(*(outline.points(1e-4) - [0.01, 0.0]).T) == pytest.approx(0.03, rel=1e-9)
 
@@ -83,7 +87,7 @@ def test_a_smooth_outline_is_the_curve_through_its_points(write):
 def test_the_centre_of_mass_comes_as_a_pair_of_floats(write, centre):
     content = {'outline': {'kind': 'circle', 'radius': 0.03}, 'centre_of_mass': centre}
 
-    _, read = read_object(write(content))
+    read = read_object(write(content)).centre_of_mass
 
     assert read == tuple(centre)
     assert all(type(value) is float for value in read)
@@ -92,11 +96,11 @@ def test_the_centre_of_mass_comes_as_a_pair_of_floats(write, centre):
 def test_a_centre_of_mass_of_null_is_an_unknown_one(write):
     content = {'outline': {'kind': 'circle', 'radius': 0.03}, 'centre_of_mass': None}
 
-    assert read_object(write(content))[1] is None
+    assert read_object(write(content)).centre_of_mass is None
 
 
 def test_whole_numbers_are_lengths_too(write):
-    outline, _ = read_object(write('{"outline": {"kind": "ellipse", "semi_axes": [2, 1]}}'))
+    outline = read_object(write('{"outline": {"kind": "ellipse", "semi_axes": [2, 1]}}')).outline
 
     assert area_and_perimeter(outline)[0] == pytest.approx(2.0 * math.pi, rel=1e-3)
 
@@ -109,7 +113,65 @@ def test_other_keys_do_no_harm(write):
         'outline': {'kind': 'polygon', 'vertices': TRIANGLE, 'unit': 'm'},
     }
 
-    assert len(read_object(write(content))[0].points(1.0)) == 3
+    assert len(read_object(write(content)).outline.points(1.0)) == 3
+
+
+def test_an_object_may_have_its_support_and_friction(write):
+    points = [[0.015, 0.025], [0.04, 0.025], [0.02, 0.05]]
+    content = {
+        'outline': {'kind': 'polygon', 'vertices': TRIANGLE},
+        'support': {'points': points, 'loads': [1.0, 2.0, 5.0]},
+        'mu_c': 0.3,
+    }
+
+    thing = read_object(write(content))
+
+    assert thing.support.points == pytest.approx(np.array(points))
+    assert thing.support.loads == pytest.approx([1.0, 2.0, 5.0])
+    assert thing.mu_c == 0.3
+
+
+def test_an_object_s_load_may_be_spread_by_one_number_and_tilted(write):
+    outline = {'kind': 'polygon', 'vertices': TRIANGLE}
+    content = {'outline': outline, 'support': {'spread': 2.4}}
+
+    even = read_object(write(content))
+    tilted = read_object(write(content | {'centre_of_mass': [0.028, 0.032]}))
+
+    expected = Support.spread(even.outline, 2.4)
+    assert even.support.centre == pytest.approx(np.mean(TRIANGLE, axis=0))
+    assert even.support.loads == pytest.approx(expected.loads)
+    assert tilted.support.centre == (0.028, 0.032)
+    assert tilted.support.loads @ tilted.support.points == pytest.approx([0.028, 0.032])
+
+
+def test_loads_of_an_object_that_are_left_out_carry_it_at_its_centroid(write):
+    # That of a triangle is the mean of its corners, which bear alike.
+    content = {
+        'outline': {'kind': 'polygon', 'vertices': TRIANGLE},
+        'support': {'points': TRIANGLE},
+    }
+
+    assert read_object(write(content)).support.loads == pytest.approx(1.0 / 3.0)
+
+
+@pytest.mark.parametrize(
+    ('change', 'reason'),
+    [
+        ({'support': 3}, 'support: expected points or a spread, got 3'),
+        ({'support': {}}, 'support: expected points or a spread'),
+        ({'support': {'spread': 3.5}}, 'support: spread: expected a number from 0 to 3'),
+        ({'support': {'spread': '1'}}, 'support: spread: expected a finite number'),
+        ({'support': {'points': [[0.0]]}}, 'support: points: '),
+        ({'support': {'spread': 1.0}, 'centre_of_mass': [0.1, 0.1]}, 'support: centre_of_mass: '),
+        ({'mu_c': -0.1}, 'mu_c: expected a number of 0 or more'),
+        ({'mu_c': math.nan}, 'mu_c: '),
+    ],
+)
+def test_a_support_and_friction_that_cannot_be_are_refused(write, change, reason):
+    content = {'outline': {'kind': 'polygon', 'vertices': TRIANGLE}, **change}
+
+    assert reason in refused(read_object, write(content))
 
 
 def test_a_support_has_its_loads_and_the_centre_and_moment_that_follow(write):
@@ -450,7 +512,8 @@ outlines = st.fixed_dictionaries(
 )
 @given(
     st.fixed_dictionaries(
-        {'outline': st.one_of(outlines, anything)}, optional={'centre_of_mass': anything}
+        {'outline': st.one_of(outlines, anything)},
+        optional={'centre_of_mass': anything, 'support': anything, 'mu_c': anything},
     ),
     st.fixed_dictionaries({'points': anything}, optional={'loads': anything}),
 )
