@@ -15,7 +15,8 @@ are fitted on one half of a file's pushes, every second one, and tried on the ot
 other way round: every push is predicted by numbers that do not know it. One more fit, in the same
 way, has where the centre of friction is, as two more numbers: the pressure is tilted so that it
 lies there (`Support.carrying`). A prior keeps it at the centroid, with a standard deviation of a
-tenth of c. `nominal` has nothing fitted: uniform pressure and mu_c = 0.25.
+tenth of c. `nominal` has nothing fitted: uniform pressure and mu_c = 0.25. Files are read and
+numbers are fitted as by `tactile_push identify`, but no record is left out.
 
 A file may have the `support` on which the object rested, `points` [m] and `loads`. Without loads
 they are those of statics, under `centre_of_mass` or else the outline's centroid. A further
@@ -25,8 +26,9 @@ above the support (`ExactLimitSurface`), both on one half for the other.
 If every push has a `force`, the mean force on the object over the last 60 % of the contact [N], the
 angle between it and the predicted one is shown. No force is used in a fit.
 
-For each file the bound of Cramér and Rao says what standard deviations c, mu_c and the centre of
-friction would have at least, if all that is left were noise.
+For each file the standard deviations of c, mu_c and the centre of friction are shown as the scatter
+of the residuals gives them, and as they would be at least, by the bound of Cramér and Rao, if all
+that is left were noise.
 
 The measured poses at the start of a push overlap by up to 2 mm in places. There the finger's way is
 moved out of the object along the contact normal: as if the offset were one of measurement, and
@@ -35,26 +37,25 @@ stayed.
 
 import argparse
 import json
+import reprlib
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from pushing.bounds import standard_deviations
-from pushing.fitting import POINTS, ROUNDS, TILTS, Fitted, Search, crossed, fit, fit_known
-from pushing.predicting import Physics, force_errors
-from pushing.records import Pushes, read_pushes
 from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
-from tactile_push.mechanics import Support
+from tactile_push.identification.fitting import Fit, Fitter
+from tactile_push.identification.identify import crosswise, halves_of
+from tactile_push.identification.models import Model, known_support, nominal, unknown_support
+from tactile_push.identification.predicting import errors_of, residuals
+from tactile_push.identification.records import Pushes, read_pushes
+from tactile_push.simulation.object_files import are_numbers, read_json
 
-NOMINAL_MU_C = 0.25
-BOUNDS = (
-    '    with noise alone: c ±{c_mm:.1f} mm, mu_c ±{mu_c:.3f}, x ±{x_mm:.1f} mm, y ±{y_mm:.1f} mm'
-)
+DEVIATIONS = '    {what}: c ±{c_mm:.1f} mm, mu_c ±{mu_c:.3f}, x ±{x_mm:.1f} mm, y ±{y_mm:.1f} mm'
 WIDTH = 120  # of a table that is no terminal's
 MODELS = {
     'fitted': 'c, mu_c',
@@ -73,8 +74,16 @@ NUMBERS = {
     'mu_c': 'mu_c {:.3f}',
     'x_mm': 'x {:+.1f} mm',
     'y_mm': 'y {:+.1f} mm',
-    'tilt_mm': 'tilt {:.0f} mm',
+    'tilt_mm': 'tilt {:.1f} mm',
 }
+
+
+class MeasuredFile(NamedTuple):
+    """A file of pushes, and the errors that others published for it."""
+
+    name: str
+    pushes: Pushes
+    published: dict[str, Any]
 
 
 def main() -> int:
@@ -85,11 +94,13 @@ def main() -> int:
     options = parser.parse_args()
     results: dict[str, dict[str, Any]] = {}
     try:
-        everything = [read_pushes(file) for file in _files(options.paths)]
+        everything = [read_measured(file) for file in _files(options.paths)]
         with Progress(console=Console(stderr=True)) as progress:
-            for pushes in everything:
-                task = progress.add_task(pushes.name, total=ROUNDS)
-                results[pushes.name] = evaluated(pushes, lambda task=task: progress.advance(task))
+            for measured in everything:
+                task = progress.add_task(measured.name, total=len(models_of(measured.pushes)))
+                results[measured.name] = evaluated(
+                    measured, lambda task=task: progress.advance(task)
+                )
     except (OSError, ValueError) as error:
         print(f'real_pushes: {error}', file=sys.stderr)
         return 2
@@ -117,48 +128,72 @@ def _files(paths: list[Path]) -> list[Path]:
     return files
 
 
-def evaluated(pushes: Pushes, advance: Callable[[], None]) -> dict[str, Any]:
-    """Return the errors of all models for a file of pushes, with what was fitted on its halves."""
-    nominal = Physics(Support.uniform(pushes.outline, POINTS), NOMINAL_MU_C)
-    search = Search(pushes, advance)
-    models = dict(zip(('fitted', 'centre'), fit(search), strict=True))
-    models['nominal'] = Fitted.crosswise(pushes, (nominal, nominal))
-    if pushes.support is not None:
-        for name, tilts in (('known', TILTS[:1]), ('known_tilt', TILTS)):
-            models[name] = fit_known(pushes, pushes.support, tilts)
-    point = search.point(models['centre'].halves[0])
-    result: dict[str, Any] = {
-        'pushes': len(pushes.ways),
-        'published': pushes.published,
-        'standard_deviations': standard_deviations(search, point),
+def read_measured(file: Path) -> MeasuredFile:
+    """Read a file, all of whose records must be pushes, and two or more."""
+    pushes, content = read_pushes(file), read_json(file)
+    if pushes.bad:
+        raise ValueError(': '.join(pushes.bad[0]))
+    if len(pushes.pushes) < 2:
+        raise ValueError(f'{file}: pushes: expected two or more, got {len(pushes.pushes)}')
+    published = content.get('published', {})
+    if 'object_did_not_move_baseline' in content and isinstance(published, dict):
+        published = published | {'object did not move': content['object_did_not_move_baseline']}
+    if not isinstance(published, dict) or not all(map(_are_errors, published.values())):
+        raise ValueError(
+            f'{file}: published: expected an object of errors for every model, got '
+            f'{reprlib.repr(published)}'
+        )
+    return MeasuredFile(file.stem, pushes, published)
+
+
+def _are_errors(errors: Any) -> bool:
+    return isinstance(errors, dict) and are_numbers(list(errors.values()))
+
+
+def models_of(pushes: Pushes) -> dict[str, Model]:
+    """Return what is fitted, by the names of `MODELS`."""
+    models = {
+        'fitted': unknown_support(pushes.outline, centre=False),
+        'centre': unknown_support(pushes.outline),
     }
-    for name, fitted in models.items():
-        result[name] = fitted.errors.figures()
-        if pushes.forces is not None:
-            (angle,) = crossed(fitted.halves, lambda half: [force_errors(pushes, half)])
-            degrees = np.degrees(angle[np.isfinite(angle)])
-            result[name] |= {
-                'mean_force_deg': float(degrees.mean()),
-                'median_force_deg': float(np.median(degrees)),
-            }
-        if name != 'nominal':
-            result[name]['halves'] = [_numbers(name, pushes, half) for half in fitted.halves]
+    if pushes.support is not None:
+        models |= {
+            'known': known_support(pushes.support),
+            'known_tilt': known_support(pushes.support, tilt=True),
+        }
+    return models
+
+
+def evaluated(measured: MeasuredFile, advance: Callable[[], None]) -> dict[str, Any]:
+    """Return the errors of all models for a file of pushes, with what was fitted on its halves."""
+    pushes = measured.pushes
+    result: dict[str, Any] = {'pushes': len(pushes.pushes), 'published': measured.published}
+    result['nominal'] = errors_of(residuals(pushes, nominal(pushes.outline))).figures()
+    for name, model in models_of(pushes).items():
+        fitter = Fitter(model, pushes, forces=False)
+        first, second = (fitter.fit(half) for half in halves_of(pushes))
+        result[name] = errors_of(crosswise(pushes, (first, second))).figures()
+        result[name]['halves'] = [_numbers(fit) for fit in (first, second)]
+        if name == 'centre':
+            everything = fitter.judged(first.numbers, range(len(pushes.pushes)))
+            result['standard_deviations'] = _in_mm(everything.deviations)
+            result['with_noise_alone'] = _in_mm(everything.bound)
+        advance()
     return result
 
 
-def _numbers(name: str, pushes: Pushes, physics: Physics) -> dict[str, float]:
-    """Return what was fitted, and c where it was."""
-    numbers = {'mu_c': physics.mu_c}
-    if name in ('fitted', 'centre'):
-        numbers['c_mm'] = 1000.0 * physics.support.c
-        numbers['spread'] = physics.spread
-    if name == 'centre':
-        home = Support.uniform(pushes.outline, 1).centre
-        for axis, here, there in zip('xy', physics.support.centre, home, strict=True):
-            numbers[f'{axis}_mm'] = 1000.0 * (here - there)
-    if name == 'known_tilt':
-        numbers['tilt_mm'] = 1000.0 * physics.tilt
-    return numbers
+def _numbers(fit: Fit) -> dict[str, float]:
+    """Return what was fitted, and the spread if it was."""
+    spread = {} if np.isnan(fit.physics.spread) else {'spread': fit.physics.spread}
+    return {**_in_mm(fit.values), **spread}
+
+
+def _in_mm(values: dict[str, float]) -> dict[str, float]:
+    """Return values with lengths in millimetres."""
+    return {
+        name if name == 'mu_c' else f'{name}_mm': value if name == 'mu_c' else 1000.0 * value
+        for name, value in values.items()
+    }
 
 
 def show(results: dict[str, dict[str, Any]]) -> None:
@@ -186,8 +221,11 @@ def show(results: dict[str, dict[str, Any]]) -> None:
             for half in result.get(key, {}).get('halves', ()):
                 numbers = (form.format(half[k]) for k, form in NUMBERS.items() if k in half)
                 print(f'    {title}, on one half: {", ".join(numbers)}')
-        if result['standard_deviations']:
-            print(BOUNDS.format(**result['standard_deviations']))
+        for key, what in (
+            ('standard_deviations', 'standard deviations'),
+            ('with_noise_alone', 'with noise alone'),
+        ):
+            print(DEVIATIONS.format(what=what, **result[key]))
 
 
 def _cells(errors: dict[str, float]) -> list[str]:

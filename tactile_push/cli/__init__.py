@@ -109,6 +109,7 @@ def command_parser() -> tuple[Parser, Commands]:
         doctor,
         estimate,
         figures,
+        identify,
         info,
         play,
         record,
@@ -124,7 +125,7 @@ def command_parser() -> tuple[Parser, Commands]:
     )
     commands = parser.add_subparsers(required=True, metavar='COMMAND', dest='command')
     runs = demo, simulate, figures, doctor, watch, record, play
-    for command in (*runs, replay, estimate, info, diff, report, calibrate):
+    for command in (*runs, replay, estimate, info, diff, report, calibrate, identify):
         command.add(commands)
     return parser, commands
 

@@ -156,6 +156,7 @@ class Slider:
         end: tuple[float, float],
         mu_c: float,
         r: float,
+        turn: float = 0.0,
     ) -> Pose:
         """Predict where the object ends when a finger moves straight from one place to another.
 
@@ -169,6 +170,8 @@ class Slider:
             Coefficient of friction between finger and object, 0 to infinity.
         r : float
             Radius of the finger's disk [m].
+        turn : float, optional
+            By how much the disk turns on its way [rad].
 
         Returns
         -------
@@ -181,9 +184,9 @@ class Slider:
             If finger and object overlap at the start, or a number is out of its range.
         """
         check_friction(mu_c)
-        numbers = (*pose, *start, *end)
+        numbers = (*pose, *start, *end, turn)
         if not all(map(math.isfinite, numbers)):
-            raise ValueError(f'pose, start, end: expected finite numbers, got {numbers}')
+            raise ValueError(f'pose, start, end, turn: expected finite numbers, got {numbers}')
         body = self.body(r)
         pose = Pose(*map(float, pose))
         sigma, gap = clearance(pose, *start, body.path, r)
@@ -192,7 +195,9 @@ class Slider:
         way = end[0] - start[0], end[1] - start[1]
         cos_alpha, sin_alpha = friction_cone(mu_c)
         finger = Finger(cos_alpha, sin_alpha, r)
-        pose, _, _, _ = move_finger(pose, sigma, gap <= TOUCH, *start, *way, 1.0, body, finger)
+        pose, _, _, _ = move_finger(
+            pose, sigma, gap <= TOUCH, *start, *way, 1.0, body, finger, float(turn)
+        )
         return pose
 
 

@@ -10,6 +10,7 @@ triangle with the centroid, and the load's middle, so the centre of friction sta
 """
 
 import math
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -20,6 +21,7 @@ from tactile_push.mechanics.quadrature import area_and_centroid, distances, gaus
 
 RIM, CORNERS = 2.0, 3.0
 NODES = 100  # of a Gauss rule on a part of an edge
+HALVINGS = 40  # of a range of spreads
 
 
 def largest_spread(outline: Outline) -> float:
@@ -62,6 +64,25 @@ def mean_distance(outline: Outline, spread: float) -> float:
         total += height * length * _mean_on_edge(height, middle, half, power)
         area += height * length
     return float(total / area)
+
+
+def spread_at(outline: Outline, distance: float) -> float:
+    """Return how far a load is spread whose mean distance from the centroid is this [m].
+
+    0 or the largest spread, if no load is as close to the centroid, the origin of the outline, or
+    as far from it.
+    """
+    at_rim = mean_distance(outline, RIM)
+    if distance <= at_rim:
+        return _bisected(0.0, RIM, lambda s: at_rim / (1.0 + radial_power(s)) < distance)
+    return _bisected(RIM, largest_spread(outline), lambda s: mean_distance(outline, s) < distance)
+
+
+def _bisected(lower: float, upper: float, is_below: Callable[[float], bool]) -> float:
+    for _ in range(HALVINGS):
+        middle = (lower + upper) / 2.0
+        lower, upper = (middle, upper) if is_below(middle) else (lower, middle)
+    return (lower + upper) / 2.0
 
 
 def _mean_on_edge(height: float, middle: float, half: float, power: float) -> float:

@@ -81,7 +81,7 @@ def read_tables(
     for done, message in enumerate(bag.messages(topics), 1):
         own = topics[message.topic]
         content = bag.decode(message)
-        time = _time(content.header.stamp, message.log_time, bag.start_time)
+        time = time_of(content.header.stamp, message.log_time, bag.start_time)
         if own == DIAGNOSTICS:
             for status in content.status:
                 statuses[status.name].append((time, status_label(status)))
@@ -93,7 +93,7 @@ def read_tables(
     return {own: found.table() for own, found in columns.items()}, statuses
 
 
-def _time(stamp: Any, log_time: int, start: int) -> float:
+def time_of(stamp: Any, log_time: int, start: int) -> float:
     """Return the time of a message from the start of the bag [s]."""
     stamped = (stamp.sec * 1_000_000_000 + stamp.nanosec - start) * 1e-9
     logged = (log_time - start) * 1e-9

@@ -89,6 +89,8 @@ def uses(thing: Path, folder: Path) -> Iterator[Words]:
     yield *COMMAND, 'simulate', '--steps', 3, '--object', thing
     yield *COMMAND, 'simulate', '--steps', 3, '--support', thing
     yield *COMMAND, 'simulate', '--steps', 3, '--json', thing
+    yield *COMMAND, 'identify', thing
+    yield *COMMAND, 'identify', BAG, '--outline', thing
     yield *COMMAND, 'record', '-o', thing / 'out', '--max-size', 'much'
     yield *COMMAND, 'calibrate', 'camera', thing, '-o', folder / 'camera.yaml'
     yield *COMMAND, 'calibrate', 'wrench', BAG, '--touches', thing, '-o', folder / 'wrench.yaml'
@@ -111,6 +113,8 @@ SLIPS = (  # of numbers and words
     ('replay', BAG, '--kp', 'much'),
     ('estimate', BAG, '--edge', '99'),
     ('estimate', BAG, '--noise-deg', '-1'),
+    ('identify', BAG),
+    ('identify', BAG, '--plot', 'pushes.xyz'),
     ('diff', BAG),
     ('diff', BAG, BAG, '--tolerance', 'x=y'),
     ('record', '--compression', 'zip'),

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tactile_push.mechanics import Outline, Slider, Support
+from tactile_push.mechanics import Outline, Pose, Slider, Support
 
 checked = settings(derandomize=True, deadline=None, max_examples=50)
 BLOCK = Outline.rectangle(0.05, 0.0475)
@@ -167,3 +167,18 @@ def test_points_come_in_rows_of_one_piece_of_memory_each():
 def test_points_that_are_no_finite_rows_are_refused(points):
     with pytest.raises(ValueError, match='points: expected finite rows x, y, load'):
         Slider(Outline.circle(0.02), 0.01, np.array(points))
+
+
+def test_a_disk_that_turns_rolls_along_the_edge():
+    # While the contact sticks, d + r (theta - psi) stays as it is.
+    block, r, turn = Outline.rectangle(0.05, 0.05), 0.0135, -0.15
+    slider = Slider.on(block, Support.uniform(block, 40), exact=True)
+    start, end = (0.004, -0.025 - r), (0.004, -0.015 - r)
+
+    after = slider.pushed(Pose(0.0, 0.0, 0.0), start, end, math.inf, r, turn)
+
+    along = (end[0] - after.x) * math.cos(after.angle) + (end[1] - after.y) * math.sin(after.angle)
+    assert abs(after.angle) > 0.01
+    assert along + r * (after.angle - turn) == pytest.approx(start[0], abs=1e-7)
+    straight = slider.pushed(Pose(0.0, 0.0, 0.0), start, end, math.inf, r)
+    assert abs(straight.angle - after.angle) > 0.01

@@ -10,6 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from tactile_push.mechanics import ExactLimitSurface, Outline, Support
+from tactile_push.mechanics.spread import spread_at
 
 checked = settings(derandomize=True, deadline=None, max_examples=15)
 SIDE = 0.06
@@ -204,3 +205,21 @@ def test_spread_0_is_all_load_in_the_centroid():
 
     assert support.c == 0.0
     assert np.ptp(support.points, axis=0) == pytest.approx(0.0, abs=1e-15)
+
+
+@pytest.mark.parametrize('spread', [0.3, 1.0, 1.9, 2.0, 2.2, 2.9, 3.0])
+def test_the_spread_follows_from_the_mean_distance(spread):
+    centroid, distance = by_sums(TRAPEZOID, spread)
+
+    found = spread_at(Outline.polygon(TRAPEZOID).about(*centroid), distance)
+
+    # At the rim the distance hardly tells: it grows by the square of what the spread is off.
+    assert found == pytest.approx(spread, abs=0.02 if spread == 2.0 else 1e-3)
+
+
+def test_beyond_all_loads_the_spread_is_at_its_bound():
+    square = Outline.rectangle(SIDE, SIDE)
+
+    assert spread_at(square, 0.0) == pytest.approx(0.0, abs=1e-9)
+    assert spread_at(square, SIDE) == pytest.approx(3.0)
+    assert spread_at(Outline.circle(SIDE), 2.0 * SIDE) == pytest.approx(2.0)

@@ -1,0 +1,79 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""What was identified, as the object file of `tactile_push simulate` and for `active_sensing`."""
+
+import math
+from typing import Any
+
+from tactile_push.identification.identify import Identified
+
+SURE = 3.0  # standard deviations within which a number is taken to be
+MODEL = 0.1  # share of a number by which the model may be wrong about it; as halves of data differ
+
+
+def object_content(outline: dict[str, Any], found: Identified) -> dict[str, Any]:
+    """Return the content of an object file.
+
+    Parameters
+    ----------
+    outline : dict
+        The outline, as a file has it.
+    found : Identified
+        What pushes say of the object.
+
+    Returns
+    -------
+    dict
+        Outline, centre of mass, support and mu_c as `simulation.read_object` takes them, and the
+        standard deviations of what was fitted. mu_c is left out if no push slips and tells it. The
+        centre of mass is where the loads balance, under an even mu_s.
+    """
+    physics = found.fit.physics
+    support = physics.support
+    rests: dict[str, Any]
+    if math.isnan(physics.spread):
+        loads = (support.loads / support.f_max).tolist()
+        rests = {'support': {'points': support.points.tolist(), 'loads': loads}}
+    else:
+        rests = {'centre_of_mass': list(support.centre), 'support': {'spread': physics.spread}}
+    told = {name: of for name, of in found.fit.deviations.items() if math.isfinite(of)}
+    friction = {'mu_c': physics.mu_c} if 'mu_c' in told else {}
+    return {'outline': outline, **rests, **friction, 'standard_deviations': told}
+
+
+def sensing_values(found: Identified) -> dict[str, object]:
+    """Return the parameters by which `active_sensing` knows the object.
+
+    Parameters
+    ----------
+    found : Identified
+        What pushes say of the object.
+
+    Returns
+    -------
+    dict
+        The outline about the centre of friction, and ranges of c and mu_c as far as they are told.
+
+    Raises
+    ------
+    ValueError
+        If the outline is neither a polygon nor a circle, as `active_sensing` knows no other.
+    """
+    physics, outline = found.fit.physics, found.pushes.outline
+    values: dict[str, object] = {}
+    if len(outline.pieces) == 1:
+        values['disk_radius'] = outline.length / math.tau
+    elif ((outline.pieces[:, 3] == 0.0) | (outline.pieces[:, 4] == 0.0)).all():
+        corners = outline.points(outline.length) - physics.support.centre
+        values['vertices'] = corners.ravel().tolist()
+    else:
+        raise ValueError('outline: expected a polygon or a circle for active_sensing')
+    sure = {
+        name: SURE * of for name, of in found.fit.deviations.items() if name not in found.fit.open
+    }
+    sure.setdefault('c', 0.0)  # of a known support
+    for name, value in (('c', physics.support.c), ('mu_c', physics.mu_c)):
+        if name in sure:
+            by = max(sure[name], MODEL * value)
+            values[f'{name}_min'], values[f'{name}_max'] = max(value - by, 0.0), value + by
+    return values
