@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tactile_push.cli.arguments import Commands, Refused, picture, topic
-from tactile_push.interface import ACTIVE_SENSING, TRUE_POSE
+from tactile_push.interface import ACTIVE_SENSING, SIM_PLANT, TRUE_POSE
 
 if TYPE_CHECKING:
     from tactile_push.identification.identify import Identified
@@ -59,7 +59,7 @@ def add(commands: Commands) -> None:
         '--params',
         type=Path,
         metavar='FILE',
-        help='parameter file to write, for active_sensing',
+        help='parameter file to write, for active_sensing and sim_plant',
     )
     option(
         '--plot',
@@ -156,15 +156,16 @@ def _write_parameters(found: 'Identified', file: Path) -> None:
     from tactile_push.bags.disk import write_whole
     from tactile_push.calibration.parameter_file import parameter_file
     from tactile_push.cli.output import naming
-    from tactile_push.identification.object_file import sensing_values
+    from tactile_push.identification.object_file import plant_values, sensing_values
 
     try:
-        values = sensing_values(found)
+        values = {SIM_PLANT: plant_values(found), ACTIVE_SENSING: sensing_values(found)}
     except ValueError as error:
         raise Refused(f'--params: {error}') from None
     remark = f'Written by `tactile_push identify` from {len(found.pushes.pushes)} pushes.'
     with naming(file, '--params'):
-        write_whole(file, parameter_file(ACTIVE_SENSING, values, [remark]))
+        texts = [parameter_file(node, values[node], []) for node in values]
+        write_whole(file, ''.join([f'# {remark}\n', *texts]))
 
 
 def _check_told(found: 'Identified') -> None:

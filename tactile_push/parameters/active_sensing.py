@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 from tactile_push.control import Limits
 from tactile_push.interface import POINTS, SILENT, WITHOUT_PSI
-from tactile_push.paper import BLOCK_EDGE, BLOCK_L
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
 
@@ -16,7 +15,6 @@ if typing.TYPE_CHECKING:
     from tactile_push.estimation import ActiveSensing
 
 TINY = 1e-12  # what is shorter is no edge [m]
-X, Y = BLOCK_EDGE / 2.0, BLOCK_L  # of a corner of the paper's block [m]
 
 
 @dataclass(frozen=True)
@@ -24,9 +22,7 @@ class ActiveSensingParameters(NodeParameters):
     """What is known of the object beforehand, and of the rig."""
 
     # fmt: off
-    vertices: list[float] = parameter([-X, -Y, X, -Y, X, Y, -X, Y], 'm',
-        'outline of the object: x, y of every corner from its centre of mass, counterclockwise',
-        read_only=True)
+    vertices: list[float] = shared.vertices
     edge: int = parameter(-1, '',
         'the pushed edge if it is known, 0 from the first corner to the second; -1 if not',
         -1, 1000, read_only=True)

@@ -8,6 +8,7 @@ from tactile_push.parameters.parameter import parameter
 from tactile_push.tactile.planar_finger import USUAL_FINGER as FINGER
 
 DEVICE = 'socket://127.0.0.1:54320'  # where `sim_plant` and `sensor_driver` meet
+X, Y = paper.BLOCK_EDGE / 2.0, paper.BLOCK_L  # of a corner of the paper's block [m]
 JOINT_NAMES = list(TOPICS[JOINT_STATES].field_names)
 
 # fmt: off
@@ -32,5 +33,8 @@ tip_xyz = parameter([0.0, 0.0, 0.02], 'm',
 tip_rpy = parameter([0.0, 0.0, 0.0], 'rad',
     "roll, pitch and yaw of fingertip in the sensor's frame, as in a URDF: its z leads to the "
     'pole, its x lies in the plane of motion, to the left of the pole', read_only=True)
+vertices = parameter([-X, -Y, X, -Y, X, Y, -X, Y], 'm',
+    'outline of the object: x, y of every corner from its centre of mass, counterclockwise',
+    read_only=True)
 autostart = parameter(True, '', 'configure and activate without a manager', read_only=True)
 # fmt: on

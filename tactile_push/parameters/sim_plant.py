@@ -14,9 +14,11 @@ from tactile_push.parameters.parameter import NodeParameters, parameter
 from tactile_push.tactile import PlanarFinger
 
 if typing.TYPE_CHECKING:
+    from tactile_push.mechanics import Outline
     from tactile_push.simulation import Faults, Mount, RigConfig
 
 SIX_ZEROS = [0.0] * 6
+POLYGON = 'polygon'
 
 
 @dataclass(frozen=True)
@@ -28,7 +30,9 @@ class SimPlantParameters(NodeParameters):
         'where the sensor_driver will find the sensor: socket://host:port to listen on, or an '
         'absolute path for a pseudo terminal', read_only=True)
     object: str = parameter(paper.BLOCK, '',
-        'what is pushed', choices=(paper.BLOCK, paper.DISK), read_only=True)
+        'what is pushed; a polygon is that of vertices, pushed at its first edge',
+        choices=(paper.BLOCK, paper.DISK, POLYGON), read_only=True)
+    vertices: list[float] = shared.vertices
     edge_length: float = parameter(paper.BLOCK_EDGE, 'm',
         'pushed edge of the block', 1e-3, 1.0, read_only=True)
     edge_to_cm: float = parameter(paper.BLOCK_L, 'm',
@@ -44,7 +48,7 @@ class SimPlantParameters(NodeParameters):
     theta_initial: float = parameter(paper.THETA_INITIAL, 'rad',
         'angle of the edge at the start', -1.5, 1.5, read_only=True)
     d_initial: float = parameter(paper.D_INITIAL, 'm',
-        'contact along the edge of the block at the start', -0.5, 0.5, read_only=True)
+        'contact along the edge of a block or polygon at the start', -0.5, 0.5, read_only=True)
     belt_speed: float = shared.belt_speed
     finger_radius: float = shared.finger_radius
     proximal_length: float = shared.proximal_length
@@ -159,6 +163,8 @@ def rig_config(p: SimPlantParameters) -> 'RigConfig':
         )
     if p.object == paper.BLOCK:
         outline, d = Outline.rectangle(p.edge_length, 2.0 * p.edge_to_cm), p.d_initial
+    elif p.object == POLYGON:
+        outline, d = _polygon(p.vertices), p.d_initial
     else:
         outline, d = Outline.circle(p.disk_radius), 0.0
     slider = Slider(outline, p.c or Support.uniform(outline).c)
@@ -170,6 +176,25 @@ def rig_config(p: SimPlantParameters) -> 'RigConfig':
         )
     except ValueError as error:
         raise ValueError(re.sub('^d:', 'parameter d_initial:', str(error))) from None
+
+
+def _polygon(vertices: list[float]) -> 'Outline':
+    """Return the outline about its centre of mass; ValueError if it is none."""
+    from tactile_push.mechanics import Outline
+    from tactile_push.mechanics.size import check_metres
+
+    numbers = len(vertices)
+    if numbers % 2 or numbers < 6:
+        raise ValueError(
+            f'parameter vertices: expected x and y of three corners or more, got {numbers} numbers'
+        )
+    try:
+        outline = Outline.polygon(list(zip(vertices[::2], vertices[1::2], strict=True)))
+        check_metres('vertices', outline)
+        outline.about(0.0, 0.0)  # which refuses a centre of mass beside the object
+    except ValueError as error:
+        raise ValueError(f'parameter vertices: {str(error).removeprefix("vertices: ")}') from None
+    return outline
 
 
 def faults(p: SimPlantParameters) -> 'Faults':

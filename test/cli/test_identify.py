@@ -69,9 +69,11 @@ def test_pushes_become_an_object_that_simulate_takes(command, write, tmp_path):
     assert lines[0] == 'pushes   10 of 10'
     assert [line.split()[0] for line in lines[1:6]] == ['c', 'mu_c', 'centre', 'errors', 'nominal']
     assert lines[6:] == [str(out), str(params), str(plot)]
-    ((section, values),) = read_sections(params).items()
-    assert section == '/**/active_sensing'
-    assert ActiveSensingParameters.of(values).c_min < 1e-3 * float(lines[1].split()[1])
+    sections = read_sections(params)
+    assert [*sections] == ['/**/sim_plant', '/**/active_sensing']
+    assert ActiveSensingParameters.of(sections['/**/active_sensing']).c_min < 1e-3 * float(
+        lines[1].split()[1]
+    )
     assert plot.read_text().startswith('<?xml')
     status, said, _ = command('simulate', '--object', out, '--steps', '1', '--json', '-')
     assert status == 0

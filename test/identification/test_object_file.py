@@ -10,10 +10,11 @@ import pytest
 
 from support.measured_pushes import VERTICES
 from tactile_push.identification.models import Physics
-from tactile_push.identification.object_file import object_content, sensing_values
+from tactile_push.identification.object_file import object_content, plant_values, sensing_values
 from tactile_push.mechanics import Outline, Support
-from tactile_push.parameters import ActiveSensingParameters
+from tactile_push.parameters import ActiveSensingParameters, SimPlantParameters
 from tactile_push.parameters.active_sensing import make_sensing
+from tactile_push.parameters.sim_plant import rig_config
 from tactile_push.simulation import read_object
 
 SHAPE = {'kind': 'polygon', 'vertices': VERTICES}
@@ -57,6 +58,7 @@ def test_friction_that_no_push_tells_is_left_out(identified):
     assert 'mu_c' not in content
     assert [*content['standard_deviations']] == ['c', 'x', 'y']
     assert [*values] == ['vertices', 'c_min', 'c_max']
+    assert 'mu_c' not in plant_values(found)
 
 
 def test_active_sensing_takes_the_object_about_its_centre_of_friction(identified):
@@ -72,6 +74,16 @@ def test_active_sensing_takes_the_object_about_its_centre_of_friction(identified
         assert high - low == pytest.approx(0.2 * value, rel=0.1)  # a tenth, as it is told well
 
 
+def test_the_plant_pushes_the_object_at_its_first_edge(identified):
+    config = rig_config(SimPlantParameters.of(plant_values(identified)))
+
+    physics = identified.fit.physics
+    assert (config.slider.c, config.mu_c) == (physics.support.c, physics.mu_c)
+    corners = config.slider.outline.points(1.0) + physics.support.centre
+    assert corners == pytest.approx(np.array(VERTICES), abs=1e-12)
+    assert config.d == 0.0
+
+
 def test_active_sensing_takes_a_disk_and_nothing_else_that_is_round(identified):
     def of(outline):
         return replace(identified, pushes=replace(identified.pushes, outline=outline))
@@ -79,3 +91,5 @@ def test_active_sensing_takes_a_disk_and_nothing_else_that_is_round(identified):
     assert sensing_values(of(Outline.circle(0.03)))['disk_radius'] == pytest.approx(0.03)
     with pytest.raises(ValueError, match='outline: expected a polygon or a circle'):
         sensing_values(of(Outline.ellipse(0.03, 0.02)))
+    disk = replace(of(Outline.circle(0.03)), fit=identified.fit)
+    assert rig_config(SimPlantParameters.of(plant_values(disk))).d == 0.0

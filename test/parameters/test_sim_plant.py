@@ -1,5 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
+import numpy as np
 import pytest
 
 from tactile_push.parameters.sim_plant import (
@@ -78,3 +79,32 @@ def test_a_wrench_of_other_than_six_numbers_is_refused():
 def test_a_start_beyond_the_edge_is_refused_by_the_name_of_its_parameter():
     with pytest.raises(ValueError, match='parameter d_initial: expected a contact .* got 0.3'):
         rig_config(SimPlantParameters(d_initial=0.3))
+
+
+TRIANGLE = [-0.02, -0.01, 0.03, -0.01, -0.01, 0.02]
+
+
+def test_a_polygon_is_pushed_at_its_first_edge():
+    p = SimPlantParameters(object='polygon', vertices=TRIANGLE, d_initial=0.01, c=0.015, mu_c=0.3)
+
+    config = rig_config(p)
+
+    corners = [[-0.02, -0.01], [0.03, -0.01], [-0.01, 0.02]]
+    assert config.slider.outline.points(1.0) == pytest.approx(np.array(corners))
+    assert (config.slider.c, config.mu_c, config.d) == (0.015, 0.3, 0.01)
+
+
+@pytest.mark.parametrize(
+    ('vertices', 'said'),
+    [
+        (TRIANGLE[:5], 'expected x and y of three corners or more, got 5 numbers'),
+        (TRIANGLE[:4], 'expected x and y of three corners or more, got 4 numbers'),
+        ([0.0, 0.0, 1.0, 0.0, 2.0, 0.0], 'expected a convex outline'),
+        ([1000.0 * number for number in TRIANGLE], 'are these millimetres?'),
+        ([number + 0.1 for number in TRIANGLE], 'expected a point inside the outline'),
+    ],
+)
+def test_a_polygon_that_is_none_is_refused(vertices, said):
+    with pytest.raises(ValueError, match='^parameter vertices: ') as error:
+        rig_config(SimPlantParameters(object='polygon', vertices=vertices))
+    assert said in str(error.value)
