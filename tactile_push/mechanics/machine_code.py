@@ -165,7 +165,10 @@ class _CheckedFiles(IndexDataCacheFile):
         path = Path(self._index_path)
         if not path.exists():
             return {}
-        stamp, overloads = _read(path)
+        try:
+            stamp, overloads = _read(path)
+        except (ImportError, AttributeError):  # it names types that these sources do not have
+            return {}
         return overloads if stamp == (self._version, self._source_stamp) else {}
 
     def _save_index(self, overloads: dict[Any, str]) -> None:

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Machine code that is outdated, damaged, written by two at once, or has no place."""
 
+import hashlib
 import importlib.util
 import os
 import resource
@@ -121,6 +122,16 @@ def test_damaged_machine_code_is_compiled_again(program, ending, damage, caplog)
         f'tactile_push: machine code in {folder} is damaged, so it is compiled again'
     )
     assert results(program) == (9.0, 27, False)
+
+
+def test_machine_code_of_sources_with_other_types_is_compiled_again_in_silence(program, caplog):
+    assert results(program) == (9.0, 27, True)
+    (index,) = program.parent.glob('__pycache__/*.nbi')
+    content = b'cno_such_module\nPush\n.'  # a pickle of a class that is not there any more
+    index.write_bytes(hashlib.sha256(content).digest() + content)
+    assert results(program) == (9.0, 27, True)
+    assert results(program) == (9.0, 27, False)
+    assert not caplog.records
 
 
 def test_data_that_is_gone_is_compiled_again(program):
