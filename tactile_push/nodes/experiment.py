@@ -3,6 +3,7 @@
 """Conducts an experiment: starts the controller once all is recorded, and ends after N steps."""
 
 import sys
+import time
 from contextlib import ExitStack
 
 from lifecycle_msgs.msg import Transition
@@ -34,6 +35,10 @@ from tactile_push.recording.recording import Recording
 # Without these recorded from the beginning no experiment starts.
 MORE = (WRENCH, SERVO_COMMANDS, SERVO_STATE)  # of nodes that not every experiment has
 AWAITED = tuple(topic for topic in RECORDED if topic not in (CLOCK, PARAMETER_EVENTS, *MORE))
+# That this node sees who hears the controller does not say that the controller sees them, too: on a
+# busy machine active_sensing could miss the first control periods. Picked: on one machine nodes
+# find each other within it [s].
+SETTLED = 1.0
 LOOK_PERIOD = 0.05  # at the recorder and the answers [s]; short beside the start of a node
 
 
@@ -58,6 +63,7 @@ class Experiment(Node):
         self._transitions = [Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_ACTIVATE]
         self._answer: Future | None = None
         self._steps = 0
+        self._ready_at: float | None = None  # from when on, by a clock that cannot be set [s]
         steady_clock = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = self.create_timer(LOOK_PERIOD, self._look, clock=steady_clock)
 
@@ -77,7 +83,7 @@ class Experiment(Node):
 
     def _advance_transition(self) -> None:
         activating = self._transitions[0] != Transition.TRANSITION_CONFIGURE
-        if activating and not self._ready():
+        if activating and not self._settled():
             return
         if self._answer is None and self._controller.service_is_ready():
             request = ChangeState.Request(transition=Transition(id=self._transitions[0]))
@@ -90,6 +96,15 @@ class Experiment(Node):
             self.context.shutdown()
         self._answer = None
         self._transitions.pop(0)
+
+    def _settled(self) -> bool:
+        """Return whether all has been ready for so long that the nodes have found each other."""
+        now = time.monotonic()
+        if not self._ready():
+            self._ready_at = None
+        elif self._ready_at is None:
+            self._ready_at = now
+        return self._ready_at is not None and now - self._ready_at >= SETTLED
 
     def _ready(self) -> bool:
         """Return whether all is recorded, and somebody else hears contacts and control periods."""

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The experiment's node: how it starts the controller, and what it does not begin with."""
 
+from types import SimpleNamespace
+
 import pytest
 import rclpy
 from geometry_msgs.msg import PoseStamped
@@ -11,7 +13,8 @@ from sensor_msgs.msg import JointState
 
 from tactile_push.bags import BagReader
 from tactile_push.interface import CONTACT, LIVE_PAGE, RECORDED, SERVO_STATE, TACTILE
-from tactile_push.nodes.experiment import AWAITED, MORE, Experiment
+from tactile_push.nodes import experiment
+from tactile_push.nodes.experiment import AWAITED, MORE, SETTLED, Experiment
 from tactile_push.nodes.ros.parameters import ConfigurationError
 
 
@@ -51,6 +54,28 @@ def test_the_controller_is_configured_and_not_activated_before_all_is_recorded(b
     assert '/contact' in recorder.missing()
     assert controller.asked == [Transition.TRANSITION_CONFIGURE]
     assert bench.node.context.ok()
+
+
+def test_the_controller_is_activated_once_all_has_been_ready_for_a_while(
+    bench, tmp_path, monkeypatch
+):
+    node = bench.start(Experiment, bag=tmp_path / 'bag')
+    controller = Controller(bench, success=True)
+    bench.until(lambda: node._transitions == [Transition.TRANSITION_ACTIVATE])
+    ready, now = True, 100.0
+    monkeypatch.setattr(node, '_ready', lambda: ready)
+    monkeypatch.setattr(experiment, 'time', SimpleNamespace(monotonic=lambda: now))
+    assert not node._settled()
+    now, ready = 100.0 + SETTLED, False  # somebody has left again
+    assert not node._settled()
+    ready = True
+    assert not node._settled()
+    now += SETTLED - 0.01
+    assert not node._settled()
+    assert controller.asked == [Transition.TRANSITION_CONFIGURE]
+    now += 0.02
+    bench.until(lambda: node._transitions == [])
+    assert controller.asked[1:] == [Transition.TRANSITION_ACTIVATE]
 
 
 def test_who_only_watches_takes_no_contacts(bench, tmp_path):
