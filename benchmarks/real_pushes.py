@@ -52,7 +52,7 @@ from tactile_push.identification.fitting import Fit, Fitter
 from tactile_push.identification.identify import crosswise, halves_of
 from tactile_push.identification.models import Model, known_support, nominal, unknown_support
 from tactile_push.identification.predicting import errors_of, residuals
-from tactile_push.identification.records import Pushes, read_pushes
+from tactile_push.identification.records import Pushes, pushes_of
 from tactile_push.simulation.object_files import are_numbers, read_json
 
 DEVIATIONS = '    {what}: c ±{c_mm:.1f} mm, mu_c ±{mu_c:.3f}, x ±{x_mm:.1f} mm, y ±{y_mm:.1f} mm'
@@ -130,7 +130,8 @@ def _files(paths: list[Path]) -> list[Path]:
 
 def read_measured(file: Path) -> MeasuredFile:
     """Read a file, all of whose records must be pushes, and two or more."""
-    pushes, content = read_pushes(file), read_json(file)
+    content = read_json(file)
+    pushes = pushes_of(content, file)
     if pushes.bad:
         raise ValueError(': '.join(pushes.bad[0]))
     if len(pushes.pushes) < 2:

@@ -115,7 +115,7 @@ def _identify(options: argparse.Namespace) -> int:
 def _read(options: argparse.Namespace) -> 'tuple[dict[str, Any], Pushes]':
     """Return the outline as its file has it, and all pushes."""
     from tactile_push.cli.output import naming
-    from tactile_push.identification.records import merged, read_pushes
+    from tactile_push.identification.records import merged, pushes_of
     from tactile_push.simulation import object_of, read_json
 
     try:
@@ -131,8 +131,9 @@ def _read(options: argparse.Namespace) -> 'tuple[dict[str, Any], Pushes]':
                 parts.append(_in_bag(data, known, options.pose))
                 continue
             with naming(data):
-                parts.append(read_pushes(data, known))
-                outline = outline or read_json(data)
+                content = read_json(data)
+                parts.append(pushes_of(content, data, known))
+                outline = outline or content
         return outline['outline'], merged(parts)
     except ValueError as error:
         raise Refused(error) from None

@@ -20,7 +20,7 @@ import numpy as np
 
 from tactile_push.mechanics import Outline, Pose, Slider, Support
 from tactile_push.mechanics.compiled import Array
-from tactile_push.simulation import ObjectFile, object_of, read_json
+from tactile_push.simulation import ObjectFile, object_of
 from tactile_push.simulation.object_files import are_numbers
 
 CUT = 0.005  # way of the tip in a push that is cut out of a longer one [m]
@@ -68,13 +68,15 @@ class Pushes:
         return replace(self, pushes=tuple(self.pushes[k] for k in chosen))
 
 
-def read_pushes(file: Path, known: ObjectFile | None = None) -> Pushes:
-    """Read a file of pushes.
+def pushes_of(content: dict[str, Any], file: Path, known: ObjectFile | None = None) -> Pushes:
+    """Read pushes from the content of a file.
 
     Parameters
     ----------
+    content : dict
+        The content.
     file : Path
-        A JSON file.
+        The file, for what is said of it.
     known : ObjectFile, optional
         The object, whose outline and support take the place of the file's.
 
@@ -85,12 +87,9 @@ def read_pushes(file: Path, known: ObjectFile | None = None) -> Pushes:
 
     Raises
     ------
-    OSError
-        If the file cannot be read.
     ValueError
         If the file has another form, or a support that cannot carry the weight.
     """
-    content = read_json(file)
     thing = known or object_of(content, file)
     try:
         (radius,) = _numbers('tip_radius', [content.get('tip_radius')], 1)
@@ -108,7 +107,7 @@ def read_pushes(file: Path, known: ObjectFile | None = None) -> Pushes:
     for k, record in enumerate(records):
         name = f'{file}: pushes[{k}]'
         try:
-            pushes += _pushes_of(name, record, radius)
+            pushes += _pushes_in(name, record, radius)
         except ValueError as error:
             bad.append(Bad(name, str(error)))
     return Pushes(thing.outline, tuple(pushes), thing.support, tuple(bad))
@@ -153,7 +152,7 @@ def cut(
             first, way = k, [place]
 
 
-def _pushes_of(name: str, record: Any, radius: float) -> list[Push]:
+def _pushes_in(name: str, record: Any, radius: float) -> list[Push]:
     if not isinstance(record, dict):
         raise ValueError(f'expected an object, got {reprlib.repr(record)}')
     if not PATHS.keys().isdisjoint(record):

@@ -9,11 +9,11 @@ import pytest
 
 pytest.importorskip('scipy', reason="pip install 'tactile_push[camera]'")
 
-from support.measured_pushes import OUTLINE, RADIUS, content, measured, ways
+from support.measured_pushes import OUTLINE, RADIUS, content, measured, pushes_in, ways
 from tactile_push.identification import models
 from tactile_push.identification.fitting import Fitter
 from tactile_push.identification.models import HOME, known_support, unknown_support
-from tactile_push.identification.records import Push, Pushes, read_pushes
+from tactile_push.identification.records import Push, Pushes
 from tactile_push.mechanics import Outline, Pose, Support
 
 FEET = Support.at_points([[0.005, 0.005], [0.05, 0.005], [0.01, 0.04]], [1.0, 2.0, 1.5])
@@ -31,7 +31,7 @@ def read(tmp_path):
     def written(pushes):
         file = tmp_path / 'block.json'
         file.write_text(json.dumps(content(pushes)))
-        return read_pushes(file)
+        return pushes_in(file)
 
     return written
 

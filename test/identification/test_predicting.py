@@ -16,11 +16,11 @@ from support.measured_pushes import (
     deviation,
     measured,
     placed,
+    pushes_in,
     translation,
     ways,
 )
 from tactile_push.identification.predicting import Physics, errors_of, residuals
-from tactile_push.identification.records import read_pushes
 from tactile_push.mechanics import Outline, Slider, Support
 
 FEET = {'points': [[0.005, 0.005], [0.05, 0.005], [0.01, 0.04]], 'loads': [1.0, 2.0, 1.5]}
@@ -33,7 +33,7 @@ def read(tmp_path):
     def written(made):
         file = tmp_path / 'block.json'
         file.write_text(json.dumps(made))
-        return read_pushes(file)
+        return pushes_in(file)
 
     return written
 

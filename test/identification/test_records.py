@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from support.measured_pushes import VERTICES, content
+from support.measured_pushes import VERTICES, content, pushes_in
 from tactile_push.identification.records import (
     CUT,
     STRAIGHT,
@@ -17,7 +17,6 @@ from tactile_push.identification.records import (
     Pushes,
     cut,
     merged,
-    read_pushes,
 )
 from tactile_push.mechanics import Outline, Pose, Support
 from tactile_push.simulation import ObjectFile
@@ -48,7 +47,7 @@ def refused(write):
 
     def read(made):
         with pytest.raises(ValueError, match=r'block\.json: ') as error:
-            read_pushes(write(made))
+            pushes_in(write(made))
         assert '\n' not in str(error.value)
         return str(error.value)
 
@@ -56,7 +55,7 @@ def refused(write):
 
 
 def test_a_push_has_its_places_and_its_force(write):
-    read = read_pushes(write(content([PUSH, PUSH | {'force': [1, -2.0]}])))
+    read = pushes_in(write(content([PUSH, PUSH | {'force': [1, -2.0]}])))
 
     first, second = read.pushes
     way = (0.03, -0.01), (0.03, 0.0)
@@ -71,7 +70,7 @@ def test_a_push_with_paths_is_cut(write):
     tip = [[0.0, 0.002 * k] for k in range(8)]
     poses = [[0.1, 0.001 * k, 0.01 * k] for k in range(8)]
 
-    read = read_pushes(write(content([{'tip_path': tip, 'object_path': poses}])))
+    read = pushes_in(write(content([{'tip_path': tip, 'object_path': poses}])))
 
     assert CUT == 0.005
     ways = [push.way for push in read.pushes]
@@ -121,7 +120,7 @@ def test_a_tip_that_stands_makes_no_push():
     ],
 )
 def test_a_record_that_is_no_push_is_named(write, record, reason):
-    read = read_pushes(write(content([PUSH, record, PUSH])))
+    read = pushes_in(write(content([PUSH, record, PUSH])))
 
     (bad,) = read.bad
     assert bad.name.endswith('block.json: pushes[1]')
@@ -178,7 +177,7 @@ def test_loads_that_the_file_leaves_out_are_those_of_statics(write):
     points = [[0.0, 0.0], [0.06, 0.0], [0.0, 0.05]]
     made = content([PUSH], support={'points': points}, centre_of_mass=[0.015, 0.025])
 
-    loads = read_pushes(write(made)).support.loads
+    loads = pushes_in(write(made)).support.loads
 
     assert loads == pytest.approx([0.25, 0.25, 0.5], abs=1e-9)  # by levers
 
@@ -188,11 +187,11 @@ def test_a_known_object_takes_the_place_of_the_file_s(write):
     del made['outline']
     known = ObjectFile(Outline.circle(0.03))
 
-    assert read_pushes(write(made), known).outline is known.outline
+    assert pushes_in(write(made), known).outline is known.outline
 
 
 def test_pushes_of_several_files_are_those_of_one_object(write):
-    one, other = read_pushes(write(content([PUSH, 3]))), read_pushes(write(content([PUSH]), 'b'))
+    one, other = pushes_in(write(content([PUSH, 3]))), pushes_in(write(content([PUSH]), 'b'))
 
     both = merged([one, other])
 
@@ -202,7 +201,7 @@ def test_pushes_of_several_files_are_those_of_one_object(write):
 
 @pytest.mark.parametrize('what', ['outline', 'support'])
 def test_pushes_of_several_objects_are_refused(write, what):
-    one = read_pushes(write(content([PUSH])))
+    one = pushes_in(write(content([PUSH])))
     other = {'outline': Outline.circle(0.03), 'support': Support.uniform(one.outline, 10)}
 
     with pytest.raises(ValueError, match=f'{what}: expected the same in all DATA'):

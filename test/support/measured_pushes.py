@@ -7,7 +7,9 @@ import math
 
 import numpy as np
 
+from tactile_push.identification.records import pushes_of
 from tactile_push.mechanics import Outline, Pose, Slider
+from tactile_push.simulation import read_json
 
 RADIUS = 0.005  # of the tip
 # The origin of the file's frame is far from the centroid (0.025, 0.0216).
@@ -66,6 +68,11 @@ def content(pushes, **more):
         'pushes': pushes,
         **more,
     }
+
+
+def pushes_in(file, known=None):
+    """Read a file of pushes."""
+    return pushes_of(read_json(file), file, known)
 
 
 def deviation(one, other):
