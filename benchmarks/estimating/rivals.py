@@ -9,8 +9,8 @@ import numpy as np
 from estimating.groups import BELT_SPEED, PERIOD, RADIUS, STEPS, C, Group, Run
 from tactile_push.estimation.hypotheses import advance
 from tactile_push.estimation.prior import ROUND
-from tactile_push.estimation.resistance import Pressure, Push
 from tactile_push.mechanics.compiled import Array, compiled
+from tactile_push.mechanics.resistance import Pressure, Push
 
 PARTICLES = 4000
 SHRINK = 0.98  # of Liu and West

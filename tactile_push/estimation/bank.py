@@ -11,9 +11,9 @@ from tactile_push.estimation import hypotheses
 from tactile_push.estimation.hypotheses import ModelErrors
 from tactile_push.estimation.mixture import hull_of_intervals
 from tactile_push.estimation.prior import Prior, spread
-from tactile_push.estimation.resistance import Push
 from tactile_push.estimation.unknowns import THETA, D
 from tactile_push.mechanics.compiled import Array
+from tactile_push.mechanics.resistance import Push
 
 LONGEST_PUSH = 1e-3  # of the hypotheses [m]: a longer one is taken in parts
 HYPOTHESIS_GONE = 11.0  # one less likely than the best by exp(11), 6e4 times, is dropped

@@ -22,8 +22,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tactile_push.estimation.resistance import Push, cone_of_angle
 from tactile_push.mechanics.compiled import Array, compiled, equation
+from tactile_push.mechanics.resistance import Push, cone_of_angle
 
 THETA_LOW, THETA_HIGH = 0, 1  # [rad]
 ROLLED_LOW, ROLLED_HIGH = 2, 3  # d + r (theta - theta_0) [m]

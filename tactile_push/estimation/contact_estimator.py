@@ -12,8 +12,19 @@ from tactile_push.estimation.contradictions import IMPOSSIBLE, Watch
 from tactile_push.estimation.guaranteed import GuaranteedSet, ModelBounds
 from tactile_push.estimation.prior import Prior, friction
 from tactile_push.estimation.recent import Recent
-from tactile_push.estimation.unknowns import ALPHA, LOG_C, THETA, D, L, R
+from tactile_push.estimation.unknowns import (
+    ALPHA,
+    GROWTH,
+    LOG_C,
+    SHAPE,
+    THETA,
+    TILT,
+    D,
+    L,
+    R,
+)
 from tactile_push.mechanics.compiled import Array
+from tactile_push.mechanics.resistance import Pressure
 from tactile_push.paper import FINGER_RADIUS
 
 OF_POSE = np.ix_((THETA, D, L, R), (THETA, D, L, R))  # rows and columns of a covariance
@@ -50,6 +61,7 @@ class Estimate:
     radius: float  #: radius of the finger's disk [m]
     surprise: float  #: mean square of the last readings' normalised errors, 1 on average
     contradiction: str  #: why to believe no number; empty otherwise
+    pressure: Pressure  #: how the object resists its turning, of the means
 
 
 class ContactEstimator:
@@ -254,6 +266,13 @@ class ContactEstimator:
             float(mean[R]),
             1.0 if self._watch is None else self._watch.surprise,
             '',
+            Pressure(
+                math.exp(2.0 * mean[LOG_C]),
+                float(mean[GROWTH]),
+                float(mean[SHAPE]),
+                np.array(prior.moments),
+                float(mean[TILT]),
+            ),
         )
 
     def _start(self, theta: float) -> None:

@@ -17,8 +17,8 @@ from tactile_push.estimation.cells import (
     split_cells,
 )
 from tactile_push.estimation.prior import Prior, friction
-from tactile_push.estimation.resistance import Push
 from tactile_push.mechanics.compiled import Array
+from tactile_push.mechanics.resistance import Push
 
 LONGEST_PART = 5e-4  # of a push of the cells [m]: what ANGLE_SLACK and LENGTH_SLACK hold for
 CELLS = 256

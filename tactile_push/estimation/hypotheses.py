@@ -28,7 +28,6 @@ from tactile_push.estimation.onset import (
     beyond_motion_cone,
     slip_as_a_gaussian_does,
 )
-from tactile_push.estimation.resistance import LEAST_COSINE, Pressure, Push, cone_of_angle, settled
 from tactile_push.estimation.unknowns import (
     ALPHA,
     GROWTH,
@@ -43,6 +42,7 @@ from tactile_push.estimation.unknowns import (
 )
 from tactile_push.mechanics.compiled import Array, compiled, equation
 from tactile_push.mechanics.motion import pushed_twist
+from tactile_push.mechanics.resistance import LEAST_COSINE, Pressure, Push, cone_of_angle, settled
 
 LASTING = 5e-3  # way over which errors last, and over which the motion is averaged [m]
 SHORTEST = 1e-9  # way that counts as none [m]

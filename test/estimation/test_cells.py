@@ -19,8 +19,8 @@ from tactile_push.estimation.cells import (
     squared,
     times,
 )
-from tactile_push.estimation.resistance import Push
 from tactile_push.mechanics import Slider, Support
+from tactile_push.mechanics.resistance import Push
 
 
 def box_around(rng, theta, d, c, mu_c):

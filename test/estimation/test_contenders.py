@@ -11,11 +11,13 @@ import pytest
 from tactile_push.estimation.contact_estimator import Estimate, Quantity
 from tactile_push.estimation.contenders import UNLIKELY, Contenders
 from tactile_push.estimation.contradictions import FEWEST, STILL
+from tactile_push.mechanics.resistance import Pressure
 
 NOISE = 0.0035
 PRIOR = np.array([0.5, 0.3, 0.2])
 NOTHING = Quantity(math.nan, 0.0, 1.0, 0.0, 1.0)
-BEFORE = Estimate(NOTHING, NOTHING, NOTHING, math.nan, np.eye(4), 0.02, 0.0135, 1.0, '')
+PRESSURE = Pressure(4e-4, 1.5, 0.0, np.array((1.0, 0.0, 1.0)))
+BEFORE = Estimate(NOTHING, NOTHING, NOTHING, math.nan, np.eye(4), 0.02, 0.0135, 1.0, '', PRESSURE)
 
 
 class Estimator:

@@ -10,9 +10,9 @@ from support import pushed_block
 from support.pushed_block import HALF, RADIUS
 from tactile_push.estimation.hypotheses import LASTING, ModelErrors, advance, correct, predict
 from tactile_push.estimation.prior import ROUND
-from tactile_push.estimation.resistance import Pressure, Push
 from tactile_push.estimation.unknowns import LOG_C, THETA, UNKNOWNS, D, L
 from tactile_push.mechanics import Slider
+from tactile_push.mechanics.resistance import Pressure, Push
 
 LOG = math.log(0.0187)
 MOMENTS = np.array(ROUND)

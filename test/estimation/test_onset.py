@@ -13,9 +13,9 @@ from tactile_push.estimation import ContactEstimator, Prior
 from tactile_push.estimation.hypotheses import ModelErrors, advance, predict
 from tactile_push.estimation.onset import beyond_motion_cone, positive_part
 from tactile_push.estimation.prior import ROUND
-from tactile_push.estimation.resistance import Pressure, Push
 from tactile_push.estimation.unknowns import ALPHA, LOG_C, THETA, TILT, UNKNOWNS, D, L, R
 from tactile_push.mechanics.motion import pushed_twist
+from tactile_push.mechanics.resistance import Pressure, Push
 from tactile_push.report.merit import KNOWN
 from tactile_push.simulation import Rig, paper_block
 

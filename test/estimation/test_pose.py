@@ -9,13 +9,15 @@ import pytest
 from tactile_push.estimation.contact_estimator import Estimate, Quantity
 from tactile_push.estimation.pose import object_pose
 from tactile_push.mechanics.contact import reach
+from tactile_push.mechanics.resistance import Pressure
 
 RADIUS = 0.0135
+PRESSURE = Pressure(4e-4, 1.5, 0.0, np.array((1.0, 0.0, 1.0)))
 
 
 def estimate_of(theta, d, l, covariance):
     numbers = Quantity(d, d, d, d, d)
-    return Estimate(numbers, numbers, numbers, theta, covariance, l, RADIUS, 1.0, '')
+    return Estimate(numbers, numbers, numbers, theta, covariance, l, RADIUS, 1.0, '', PRESSURE)
 
 
 @pytest.mark.parametrize(('theta', 'd'), [(0.0, 0.0), (0.3, -0.006), (-0.5, 0.01)])

@@ -9,7 +9,6 @@ import pytest
 from tactile_push.estimation import edges_of
 from tactile_push.estimation.hypotheses import advance
 from tactile_push.estimation.prior import ROUND
-from tactile_push.estimation.resistance import Pressure, Push, cone_of_angle, resistance, settled
 from tactile_push.mechanics import (
     ExactLimitSurface,
     Outline,
@@ -17,6 +16,7 @@ from tactile_push.mechanics import (
     Support,
     sticking_twist,
 )
+from tactile_push.mechanics.resistance import Pressure, Push, cone_of_angle, resistance, settled
 from tactile_push.simulation import Rig, RigConfig
 
 RADIUS = 0.0135
