@@ -1,0 +1,128 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""The pushed object over the belt's way, as the planner sees it.
+
+The belt's way s takes the place of time: rates are per metre of belt, and the finger's velocity is
+u = v_x / v_y = cot(phi). The object is pushed at one straight edge, under the ellipsoid.
+"""
+
+import math
+from typing import NamedTuple
+
+from tactile_push.mechanics.compiled import compiled, equation
+from tactile_push.mechanics.resistance import Pressure, settled
+
+
+class Pushed(NamedTuple):
+    """The object and the finger that pushes it."""
+
+    l: float  #: distance from the edge to the centre of mass [m]
+    r: float  #: effective radius of the finger's disk [m]
+    pressure: Pressure  #: how the object resists its turning
+    cos_alpha: float  #: of the friction cone, see `friction_cone`
+    sin_alpha: float  #: the same
+    turning: float  #: by how much the tip turns for each metre across the belt [rad/m]
+    lag: float  #: belt on which the finger gets near to its command by a factor of e [m]
+
+
+class Situation(NamedTuple):
+    """Where finger and object are."""
+
+    x: float  #: centre of the finger's disk across the belt [m]
+    theta: float  #: angle of the pushed edge [rad]
+    d: float  #: contact along the edge [m]
+    u: float  #: velocity of the finger across the belt, by the belt's speed
+    command: float  #: the one it was told last
+
+
+class Goal(NamedTuple):
+    """Where the object shall be let go."""
+
+    x: float  #: of its centre of mass across the belt [m]
+    theta: float  #: angle of the pushed edge [rad]
+
+
+class Bounds(NamedTuple):
+    """What a plan keeps to."""
+
+    steepest: float  #: largest |cot(phi)|
+    rate: float  #: largest change of the command for each metre of belt [1/m]
+    x_min: float  #: least x of the finger's disk [m]
+    x_max: float  #: greatest x of the finger's disk [m]
+    d_min: float  #: end of the edge where d is least, a margin inside [m]
+    d_max: float  #: the other end [m]
+    theta_max: float  #: largest |theta| [rad]
+
+
+@compiled
+def centre_of_mass(now: Situation, pushed: Pushed) -> float:
+    """Return where the centre of mass is across the belt [m]."""
+    way = now.d * math.cos(now.theta) + (pushed.l + pushed.r) * math.sin(now.theta)
+    return now.x - way
+
+
+@equation
+def _rates(theta: float, d: float, u: float, pushed: Pushed) -> tuple[float, float, bool]:
+    """Compute theta' and d' under a velocity of the finger, and whether it pushes."""
+    cos, sin, spin = math.cos(theta), math.sin(theta), pushed.turning * u
+    v_t, v_n = cos * u + sin - pushed.r * spin, cos - sin * u
+    _, _, _, omega, v_slip = settled(
+        v_t, v_n, d, pushed.l, pushed.cos_alpha, pushed.sin_alpha, pushed.pressure
+    )
+    pushes = v_n > 0.0 or omega != 0.0 or v_slip != v_t
+    return omega, v_slip - pushed.r * (omega - spin), pushes  # (16)
+
+
+@equation
+def step(now: Situation, command: float, h: float, pushed: Pushed) -> tuple[Situation, bool]:
+    """Move by a short piece of belt under one command; the midpoint rule.
+
+    Parameters
+    ----------
+    now : Situation
+        At its start.
+    command : float
+        What the finger is told.
+    h : float
+        Its length [m].
+    pushed : Pushed
+        The object.
+
+    Returns
+    -------
+    after : Situation
+        At its end.
+    pushes : bool
+        Whether the finger touched the object in its middle.
+    """
+    decay = math.exp(-h / pushed.lag) if pushed.lag > 0.0 else 0.0
+    gap = now.u - command
+    u = command + (gap * (1.0 - decay) * pushed.lag / h if h > 0.0 else 0.0)  # on the mean
+    turn, slide, _ = _rates(now.theta, now.d, u, pushed)
+    middle = now.theta + h / 2.0 * turn, now.d + h / 2.0 * slide
+    turn, slide, pushes = _rates(middle[0], middle[1], u, pushed)
+    after = Situation(
+        now.x + h * u, now.theta + h * turn, now.d + h * slide, command + gap * decay, command
+    )
+    return after, pushes
+
+
+@equation
+def outside(now: Situation, bounds: Bounds) -> tuple[float, float, float]:
+    """Return by how much d, x and theta are beyond their bounds, 0 if they are not [m, m, rad]."""
+    return (
+        max(bounds.d_min - now.d, now.d - bounds.d_max, 0.0),
+        max(bounds.x_min - now.x, now.x - bounds.x_max, 0.0),
+        max(abs(now.theta) - bounds.theta_max, 0.0),
+    )
+
+
+@compiled
+def follow(now: Situation, command: float, way: float, pushed: Pushed) -> Situation:
+    """Move by a piece of belt under one command, as long as one likes."""
+    count = max(1, math.ceil(way / 5e-4))
+    for _ in range(count):
+        now, pushes = step(now, command, way / count, pushed)
+        if not pushes:
+            break
+    return now

@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whether a goal can be reached, and if not, why and which one is nearest."""
+
+import math
+from dataclasses import dataclass, replace
+
+from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation
+from tactile_push.control.placing.planner import Plan, new_plan
+
+WITH_RESERVE, AT_THE_LIMITS, OUT_OF_REACH = 'with reserve', 'at the limits', 'out of reach'
+# What forbids a goal: it can be reached as soon as this one, the first of several, is no limit. `CONTACT`: from where the
+# finger touches, with all limits away, sticking and slipping do not lead there.
+FRICTION, EDGE, WORKSPACE, BELT, CONTACT = 'friction', 'edge', 'workspace', 'belt', 'contact'
+# What is spared for a reserve: shares of cot(phi) and of the belt, ends of edge and workspace [m],
+# theta [rad].
+STEEPNESS_SPARED, BELT_SPARED, SPARED, THETA_SPARED = 0.15, 0.2, 3e-3, math.radians(5.0)
+FAR = 10.0  # no end of an edge, a workspace or a belt [m]
+# How far goals around one are tried, where a millimetre counts as a degree [mm]; and in how many
+# directions.
+RADII, DIRECTIONS, HALVINGS = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0), 12, 3
+
+
+@dataclass(frozen=True)
+class Reach:
+    """Whether a goal can be reached."""
+
+    verdict: str  #: `WITH_RESERVE`, `AT_THE_LIMITS` or `OUT_OF_REACH`
+    reason: str  #: what forbids it, `FRICTION` to `CONTACT`; empty if nothing does
+    plan: Plan | None  #: how, or what comes nearest in the planner's measure
+
+
+@dataclass(frozen=True)
+class Task:
+    """From where, under which numbers and within which bounds."""
+
+    now: Situation  #: where finger and object are
+    pushed: Pushed  #: numbers of object and finger
+    bounds: Bounds  #: what may not be left
+    belt: float  #: what there is of it [m]
+
+    def plan(self, goal: Goal) -> Plan | None:
+        """Return the best plan for a goal."""
+        return new_plan((self.now, goal, self.pushed), self.bounds, 0.0, self.belt)
+
+    def arrives(self, goal: Goal) -> bool:
+        """Return whether there is a plan that gets to a goal."""
+        plan = self.plan(goal)
+        return plan is not None and plan.arrives
+
+
+def reach(task: Task, goal: Goal) -> Reach:
+    """Find out whether a goal can be reached.
+
+    Parameters
+    ----------
+    task : Task
+        From where.
+    goal : Goal
+        Where to.
+
+    Returns
+    -------
+    Reach
+        Whether, and what forbids it.
+    """
+    plan = task.plan(goal)
+    if plan is None or not plan.arrives:
+        return Reach(OUT_OF_REACH, _reason(task, goal), plan)
+    spared = with_reserve(task).plan(goal)
+    if spared is not None and spared.arrives:
+        return Reach(WITH_RESERVE, '', spared)
+    return Reach(AT_THE_LIMITS, '', plan)
+
+
+def with_reserve(task: Task) -> Task:
+    """Return a task that spares some of everything that is limited."""
+    bounds = task.bounds
+    return replace(
+        task,
+        belt=(1.0 - BELT_SPARED) * task.belt,
+        bounds=bounds._replace(
+            steepest=(1.0 - STEEPNESS_SPARED) * bounds.steepest,
+            x_min=bounds.x_min + SPARED,
+            x_max=bounds.x_max - SPARED,
+            d_min=bounds.d_min + SPARED,
+            d_max=bounds.d_max - SPARED,
+            theta_max=bounds.theta_max - THETA_SPARED,
+        ),
+    )
+
+
+def _reason(task: Task, goal: Goal) -> str:
+    bounds, pushed = task.bounds, task.pushed
+    without = {
+        WORKSPACE: replace(task, bounds=bounds._replace(x_min=-FAR, x_max=FAR)),
+        EDGE: replace(task, bounds=bounds._replace(d_min=-FAR, d_max=FAR)),
+        FRICTION: replace(task, pushed=pushed._replace(cos_alpha=0.0, sin_alpha=1.0)),
+        BELT: replace(task, belt=max(4.0 * task.belt, 0.5)),
+    }
+    return next((reason for reason, other in without.items() if other.arrives(goal)), CONTACT)
+
+
+def nearest_goal(task: Task, goal: Goal) -> Goal | None:
+    """Find a goal that can be reached near one that cannot.
+
+    Parameters
+    ----------
+    task : Task
+        From where; a task `with_reserve` gives a goal that is reached with reserve.
+    goal : Goal
+        The goal, of which a millimetre counts as a degree.
+
+    Returns
+    -------
+    Goal or None
+        The nearest one found; None if there is none within 64 mm or degrees.
+    """
+
+    def at(radius: float, direction: float) -> Goal:
+        return Goal(
+            goal.x + 1e-3 * radius * math.cos(direction),
+            goal.theta + math.radians(radius) * math.sin(direction),
+        )
+
+    if task.arrives(goal):
+        return goal
+    nearer = 0.0
+    for radius in RADII:
+        for k in range(DIRECTIONS):
+            direction = 2.0 * math.pi * k / DIRECTIONS
+            if not task.arrives(at(radius, direction)):
+                continue
+            for _ in range(HALVINGS):
+                middle = (nearer + radius) / 2.0
+                if task.arrives(at(middle, direction)):
+                    radius = middle
+                else:
+                    nearer = middle
+            return at(radius, direction)
+        nearer = radius
+    return None

@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""The planner's steps against the mechanics of a push."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tactile_push.control.placing.model import (
+    Bounds,
+    Pushed,
+    Situation,
+    centre_of_mass,
+    follow,
+    outside,
+)
+from tactile_push.mechanics import Outline, Pose, Slider, friction_cone
+from tactile_push.mechanics.body import Finger
+from tactile_push.mechanics.push import move_finger
+from tactile_push.mechanics.resistance import Pressure
+
+L, R, C, BELT = 0.02375, 0.0135, 0.0187, 0.005
+ROUND = np.array((1.0, 0.0, 1.0))
+
+
+def pushed(mu_c=math.inf, turning=0.0, lag=0.0):
+    return Pushed(L, R, Pressure(C * C, 0.0, 0.0, ROUND), *friction_cone(mu_c), turning, lag)
+
+
+@pytest.mark.parametrize('mu_c', [0.0, 0.2, 1.0, math.inf])
+@pytest.mark.parametrize(('theta', 'd', 'u'), [(0.3, -0.006, -1.2), (-0.2, 0.008, 0.5)])
+@pytest.mark.parametrize('turning', [0.0, -12.5])
+def test_a_piece_of_belt_is_the_push_of_the_finger_over_it(mu_c, theta, d, u, turning):
+    slider = Slider(Outline.rectangle(0.2, 2.0 * L), C)
+    sigma = slider.outline.sigma(R, d=d)
+    start = Situation(0.02, theta, d, u, u)
+    pose = Pose(centre_of_mass(start, pushed()), 0.0, theta)
+    y = d * math.sin(theta) - (L + R) * math.cos(theta)  # of the disk, from the centre of mass
+    way = 0.006
+    after = follow(start, u, way, pushed(mu_c, turning))
+    found, contact, _, _ = move_finger(
+        *(pose, sigma, True, start.x, y, BELT * u, BELT, way / BELT),
+        *(slider.body(R), Finger(*friction_cone(mu_c), R), turning * BELT * u),
+    )
+    assert after.x == pytest.approx(start.x + u * way, abs=1e-15)
+    assert after.theta == pytest.approx(found.angle, abs=1e-4)
+    assert after.d - d == pytest.approx(contact - sigma, abs=5e-6)
+    assert centre_of_mass(after, pushed()) == pytest.approx(found.x, abs=5e-6)
+
+
+def test_a_finger_that_lags_goes_as_far_as_a_first_order_servo():
+    lag, way = 5e-4, 2e-3
+    after = follow(Situation(0.0, 0.0, 0.0, 1.0, 0.0), -0.5, way, pushed(lag=lag))
+    left = math.exp(-way / lag)
+    assert after.u == pytest.approx(-0.5 + 1.5 * left)
+    assert after.x == pytest.approx(-0.5 * way + 1.5 * lag * (1.0 - left))
+    assert after.command == -0.5
+
+
+def test_what_is_outside_is_told_one_by_one():
+    bounds = Bounds(1.5, 2000.0, -0.1, 0.1, -0.02, 0.02, 0.5)
+    assert outside(Situation(0.0, 0.1, 0.01, 0.0, 0.0), bounds) == (0.0, 0.0, 0.0)
+    found = outside(Situation(-0.103, -0.6, 0.021, 0.0, 0.0), bounds)
+    assert found == pytest.approx((0.001, 0.003, 0.1))

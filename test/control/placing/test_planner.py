@@ -1,0 +1,78 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+
+import math
+
+import numpy as np
+import pytest
+
+from tactile_push.control.placing.horizon import LENGTH
+from tactile_push.control.placing.model import (
+    Bounds,
+    Goal,
+    Pushed,
+    Situation,
+    centre_of_mass,
+    follow,
+)
+from tactile_push.control.placing.planner import Plan, Planner
+from tactile_push.mechanics import friction_cone
+from tactile_push.mechanics.resistance import Pressure
+
+BOUNDS = Bounds(1.54, 2000.0, -0.1, 0.1, -0.022, 0.022, 0.8)
+PIECE = 5e-4
+
+
+def pushed(c=0.0187):
+    pressure = Pressure(c * c, 1.5, 0.0, np.array((1.0, 0.0, 1.0)))
+    return Pushed(0.02375, 0.0135, pressure, *friction_cone(math.inf), 0.0, PIECE)
+
+
+def test_the_first_command_is_the_mean_over_the_period():
+    plan = Plan(np.array((1.0, -1.0, 0.0, 0.0, 0.001, 0.1, 0.0, 0.0)), 0.0, 0.0, 0.0, 0.0)
+    assert plan.length == pytest.approx(0.101 * LENGTH)
+    assert plan.command(0.0005) == pytest.approx(0.2 * 1.0 - 0.8 * 1.0)
+    assert plan.command(0.00005) == pytest.approx(1.0)
+
+
+def test_of_two_plans_one_that_misses_less_is_better_unless_it_takes_much_more_belt():
+    push = np.array((0.0, 0.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.0))
+    longer = np.array((0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0))
+    near, exact = Plan(push, 0.0, 1e-4, 0.0, 0.0), Plan(push, 0.0, 0.0, 0.0, 0.0)
+    assert exact.merit < near.merit < Plan(longer, 0.0, 0.0, 0.0, 0.0).merit
+
+
+def closed_loop(truth, believed, goal, now):
+    """Follow a plan that is made anew in every period; return the errors and the belt."""
+    planner, used = Planner(BOUNDS), 0.0
+    while used < 0.3:
+        plan = planner.plan(now, believed, goal, 0.3 - used, way=PIECE if used else 0.0)
+        way = min(PIECE, plan.length)
+        now = follow(now, plan.command(PIECE), way, truth)
+        used += way
+        if way < PIECE:
+            break
+    return centre_of_mass(now, truth) - goal.x, now.theta - goal.theta, used
+
+
+@pytest.mark.parametrize('goal', [Goal(-0.03, -0.1), Goal(-0.025, 0.1)])
+def test_it_gets_there_although_the_object_turns_less_than_it_is_believed_to(goal):
+    start = Situation(0.0, 0.2, 0.003, 0.0, 0.0)
+    x, theta, used = closed_loop(pushed(0.0196), pushed(), goal, start)
+    assert abs(x) < 3e-4
+    assert abs(theta) < math.radians(0.3)
+    assert used < 0.15  # it may have to go around once more
+
+
+def test_it_spares_some_of_its_bounds_if_it_can():
+    planner = Planner(BOUNDS)
+    plan = planner.plan(Situation(0.0, 0.2, 0.003, 0.0, 0.0), pushed(), Goal(-0.03, -0.1), 0.3)
+    assert plan.arrives
+    assert np.abs(plan.push[:4]).max() <= 0.8 * BOUNDS.steepest + 1e-12
+
+
+def test_a_goal_that_cannot_be_reached_has_no_plan_that_arrives():
+    plan = Planner(BOUNDS).plan(
+        Situation(0.0, 0.2, 0.003, 0.0, 0.0), pushed(), Goal(0.2, -0.1), 0.3
+    )
+    assert plan is None or not plan.arrives

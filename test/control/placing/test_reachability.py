@@ -1,0 +1,75 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+
+import math
+
+import numpy as np
+import pytest
+
+from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation, centre_of_mass
+from tactile_push.control.placing.reachability import (
+    AT_THE_LIMITS,
+    BELT,
+    FRICTION,
+    OUT_OF_REACH,
+    WITH_RESERVE,
+    WORKSPACE,
+    Task,
+    nearest_goal,
+    reach,
+)
+from tactile_push.mechanics import friction_cone
+from tactile_push.mechanics.resistance import Pressure
+
+BOUNDS = Bounds(1.54, 2000.0, -0.1, 0.1, -0.024, 0.024, 0.85)
+NOW = Situation(0.0, 0.1, -0.002, 0.0, 0.0)
+
+
+def task(mu_c=math.inf, belt=0.3, now=NOW, bounds=BOUNDS):
+    pressure = Pressure(0.0187**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))
+    pushed = Pushed(0.02375, 0.0135, pressure, *friction_cone(mu_c), 0.0, 0.0)
+    return Task(now, pushed, bounds, belt)
+
+
+def test_a_goal_ahead_is_reached_with_reserve():
+    told = reach(task(), Goal(-0.01, 0.0))
+    assert (told.verdict, told.reason) == (WITH_RESERVE, '')
+    assert told.plan.arrives
+
+
+def test_a_goal_that_takes_nearly_all_the_belt_is_at_the_limits():
+    goal = Goal(-0.03, 0.0)
+    belt = reach(task(), goal).plan.length
+    assert reach(task(belt=1.02 * belt), goal).verdict == AT_THE_LIMITS
+
+
+def test_a_goal_farther_aside_than_the_finger_gets_on_the_belt_is_out_of_reach_for_the_belt():
+    # The finger cannot go farther than 1.54 times the belt, and theta and d end as they began.
+    start = centre_of_mass(NOW, task().pushed)
+    told = reach(task(belt=0.02), Goal(start + 0.04, 0.1))
+    assert (told.verdict, told.reason) == (OUT_OF_REACH, BELT)
+
+
+def test_a_goal_beyond_the_workspace_is_out_of_reach_for_it():
+    told = reach(task(belt=0.4), Goal(-0.14, 0.0))
+    assert (told.verdict, told.reason) == (OUT_OF_REACH, WORKSPACE)
+
+
+def test_without_friction_a_contact_beside_the_middle_cannot_turn_back_on_a_short_belt():
+    # d > l mu_c turns the object counterclockwise only, and slipping across takes belt.
+    now, goal = Situation(0.0, 0.0, 0.015, 0.0, 0.0), Goal(-0.03, -0.3)
+    told = reach(task(mu_c=0.0, belt=0.04, now=now), goal)
+    assert (told.verdict, told.reason) == (OUT_OF_REACH, FRICTION)
+
+
+@pytest.mark.parametrize('goal', [Goal(-0.12, 0.0), Goal(0.0, 1.0)])
+def test_the_nearest_goal_can_be_reached(goal):
+    nearest = nearest_goal(task(), goal)
+    assert not task().arrives(goal)
+    assert task().arrives(nearest)
+    away = math.hypot(1e3 * (nearest.x - goal.x), math.degrees(nearest.theta - goal.theta))
+    assert 0.1 < away < 33.0
+
+
+def test_the_nearest_goal_to_one_in_reach_is_itself():
+    assert nearest_goal(task(), Goal(-0.01, 0.0)) == Goal(-0.01, 0.0)
