@@ -9,8 +9,8 @@ from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation
 from tactile_push.control.placing.planner import Plan, new_plan
 
 WITH_RESERVE, AT_THE_LIMITS, OUT_OF_REACH = 'with reserve', 'at the limits', 'out of reach'
-# What forbids a goal: it can be reached as soon as this one, the first of several, is no limit. `CONTACT`: from where the
-# finger touches, with all limits away, sticking and slipping do not lead there.
+# What forbids a goal, which can be reached as soon as this one is no limit; the first of several.
+# `CONTACT`: from where the finger touches, sticking and slipping do not lead there.
 FRICTION, EDGE, WORKSPACE, BELT, CONTACT = 'friction', 'edge', 'workspace', 'belt', 'contact'
 # What is spared for a reserve: shares of cot(phi) and of the belt, ends of edge and workspace [m],
 # theta [rad].

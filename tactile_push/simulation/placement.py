@@ -1,0 +1,144 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""One object placed on the rig, through sensor, finger and the steps that the nodes run."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from tactile_push.control import PUSHING, WAITING, Limits, PushControl
+from tactile_push.control.placing.law import LEARNING, MISSED, Belief, PlaceLaw
+from tactile_push.control.placing.learning import Spread
+from tactile_push.control.placing.model import Pushed
+from tactile_push.estimation import ActiveSensing
+from tactile_push.estimation.prior import ROUND
+from tactile_push.mechanics import Slider, friction_cone
+from tactile_push.mechanics.contact import D_START, L_START, LENGTH
+from tactile_push.mechanics.resistance import Pressure
+from tactile_push.pipeline import Sensing
+from tactile_push.pipeline.belief import belief_of
+from tactile_push.simulation.experiment import control_periods
+from tactile_push.simulation.faults import NO_FAULTS, Faults
+from tactile_push.simulation.rig import Rig, RigConfig
+
+CERTAIN = 1e-4  # deviations of what is told and not estimated [m, rad]
+
+
+@dataclass(frozen=True)
+class Placement:
+    """How an object was placed."""
+
+    stage: str  #: the law's last one
+    end: str  #: why the finger stopped; empty if the law said so
+    x_error: float  #: where the centre of mass is, less where it should be [m]
+    theta_error: float  #: the same of the edge's angle [rad]
+    belt: float  #: belt used [m]
+    learned: float  #: the part of it before the law committed itself [m]
+
+
+def place(
+    config: RigConfig,
+    law: PlaceLaw,
+    *,
+    period: float = 0.1,
+    sensing: ActiveSensing | None = None,
+    faults: Faults = NO_FAULTS,
+    limits: Limits | None = None,
+    seed: int = 0,
+) -> Placement:
+    """Place an object on the rig.
+
+    Parameters
+    ----------
+    config : RigConfig
+        The rig and where it starts.
+    law : PlaceLaw
+        The law, with its goal in `finger_base`. The run changes it.
+    period : float, optional
+        Control period [s].
+    sensing : ActiveSensing, optional
+        What it believes; by default it is told the truth.
+    faults : Faults, optional
+        Faults of the rig; none by default.
+    limits : Limits, optional
+        When to stop and how fast to go at the most.
+    seed : int, optional
+        Of the sensor's errors.
+
+    Returns
+    -------
+    Placement
+        How the object lies when the finger lets go, or stops.
+    """
+    rig = Rig(config, faults)
+    push = PushControl(law, config.belt_speed, period, limits)
+    steps = None if sensing is None else Sensing(sensing, lambda k, _: k * period)
+    noise, piece = faults.sensor.noise, period * config.belt_speed
+    learned, end = 0.0, ''
+    for k, tick in enumerate(control_periods(rig, push, 1, seed)):
+        if tick.state not in (PUSHING, WAITING) or tick.silence > push.limits.contact_timeout:
+            end = tick.stop_reason or tick.state
+            break
+        if not math.isnan(law.let_go_in):
+            rig.step(tick.v_x or 0.0, law.let_go_in)
+            break
+        if law.stage == MISSED:
+            break
+        if law.stage == LEARNING:
+            learned = law.used
+        if steps is None:
+            law.believe(_truth(rig, piece))
+        else:
+            sensed = steps.tick((k, 0), tick)
+            x, turning = rig.finger_pose.x, _turning(rig)
+            law.believe(
+                belief_of(sensed.estimate, x, turning, noise, piece) if sensed.known else None
+            )
+    x = rig.object_in_finger_disk.x + rig.finger_pose.x
+    return Placement(law.stage, end, x - law.goal.x, rig.theta - law.goal.theta, law.used, learned)
+
+
+def pressure_of(slider: Slider) -> Pressure:
+    """Return how an object resists its turning, as the estimator and the planner see it.
+
+    c^2 is the load's second moment while the object hardly turns, and 2 sum(w r) / sum(w / r) when
+    it spins: friction's moment over its force per velocity of the centre, on average over the
+    directions.
+
+    Parameters
+    ----------
+    slider : Slider
+        The object.
+    """
+    points = slider.body(1.0).support
+    moments = np.array(ROUND)
+    if points is None:
+        return Pressure(slider.c**2, 0.0, 0.0, moments)
+    r, w = np.hypot(points[0], points[1]), points[2]
+    still = float(np.sum(w * r * r) / np.sum(w)) / 2.0
+    spinning = 2.0 * float(np.sum(w * r) / np.sum(w / r))
+    return Pressure(still, spinning / still - 1.0, 0.0, moments)
+
+
+def pushed_of(config: RigConfig) -> Pushed:
+    """Return the numbers of object and finger of a rig, as long as the tip does not turn."""
+    cos_alpha, sin_alpha = friction_cone(config.mu_c)
+    l = float(config.body.path[0, L_START])
+    pressure = pressure_of(config.slider)
+    return Pushed(l, config.radius, pressure, cos_alpha, sin_alpha, 0.0, 0.0)
+
+
+def _truth(rig: Rig, piece: float) -> Belief:
+    config = rig.config
+    path = config.body.path
+    start = float(path[0, D_START])
+    spread = Spread(CERTAIN, CERTAIN, CERTAIN, CERTAIN, piece)
+    ends = start, start + float(path[0, LENGTH])
+    pushed = pushed_of(config)._replace(turning=_turning(rig))
+    return Belief(rig.finger_pose.x, rig.theta, rig.d, pushed, ends, spread)
+
+
+def _turning(rig: Rig) -> float:
+    """Return by how much the tip turns for each metre across the belt [rad/m]."""
+    return rig.config.finger.turning(*rig.joints[:2]) if rig.config.tip_turns else 0.0

@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""Objects that are placed on the rig, told the truth and by touch alone."""
+
+import math
+
+import pytest
+
+from tactile_push.control.placing.law import RELEASED, PlaceLaw
+from tactile_push.control.placing.model import Goal
+from tactile_push.estimation import ActiveSensing, FingerMotion, ObjectEstimator, edges_of
+from tactile_push.mechanics import Outline, Slider, Support
+from tactile_push.paper import BLOCK_CORNERS, BLOCK_DEPTH, BLOCK_EDGE
+from tactile_push.simulation import Rig, RigConfig, paper_block
+from tactile_push.simulation.faults import Faults
+from tactile_push.simulation.placement import place, pressure_of
+from tactile_push.simulation.sensor import Sensor
+from tactile_push.simulation.servo import Servo
+
+LAG, NOISE = 0.1, math.radians(0.3)
+
+
+def law_for(config, shift, theta, belt=0.3):
+    """Return a law whose goal lies aside of where the object is."""
+    rig = Rig(config)
+    x = rig.object_in_finger_disk.x + rig.finger_pose.x
+    return PlaceLaw(Goal(x + shift, theta), belt, config.belt_speed, 0.1, lag=LAG)
+
+
+@pytest.mark.parametrize('tip_turns', [False, True])
+def test_an_object_is_placed_if_the_truth_is_told(tip_turns):
+    block = paper_block(theta=0.2, d=0.003)
+    config = RigConfig(block.slider, math.inf, 0.2, 0.003, tip_turns=tip_turns)
+    law = law_for(config, -0.015, 0.0)
+    found = place(config, law, faults=Faults(servo=Servo(time_constant=LAG)))
+    assert (found.stage, found.end) == (RELEASED, '')
+    assert abs(found.x_error) < 2e-4
+    assert abs(found.theta_error) < math.radians(0.2)
+    assert found.learned == 0.0
+    assert found.belt == law.used < 0.1
+
+
+@pytest.mark.slow
+def test_an_object_is_placed_by_touch_alone():
+    outline = Outline.rectangle(BLOCK_EDGE, BLOCK_DEPTH)
+    slider = Slider.on(outline, Support.corners(outline), exact=True)
+    config = RigConfig(slider, 0.5, 0.2, 0.003, tip_turns=False)
+    law = law_for(config, -0.02, -0.1)
+    estimator = ObjectEstimator(edges_of(BLOCK_CORNERS)[:1], NOISE, l_share=0.01, radius_share=0.01)
+    sensing = ActiveSensing(estimator, FingerMotion(LAG), config.belt_speed, 0.3)
+    faults = Faults(servo=Servo(time_constant=LAG), sensor=Sensor(NOISE))
+    found = place(config, law, sensing=sensing, faults=faults)
+    assert (found.stage, found.end) == (RELEASED, '')
+    assert abs(found.x_error) < 5e-4
+    assert abs(found.theta_error) < math.radians(0.5)
+    assert 0.0 < found.learned < found.belt
+
+
+def test_four_corners_resist_turning_four_times_as_much_when_they_only_spin():
+    # All friction acts at one distance: c^2 is half its square at first, and twice it in a spin.
+    outline = Outline.rectangle(BLOCK_EDGE, BLOCK_DEPTH)
+    found = pressure_of(Slider.on(outline, Support.corners(outline), exact=True))
+    assert found.c_squared == pytest.approx((BLOCK_EDGE**2 + BLOCK_DEPTH**2) / 8.0)
+    assert found.growth == pytest.approx(3.0)
+    assert pressure_of(paper_block(c=0.02).slider)[:2] == pytest.approx((4e-4, 0.0))
