@@ -45,8 +45,8 @@ BOUNDED = 6  # where the residuals of preferences begin
 RESIDUALS = BOUNDED + ARCS + (ARCS - 1) + 1
 # What more tries are not worth: a miss at the end [m, rad].
 X_ENOUGH, THETA_ENOUGH = 1e-4, math.radians(0.1)
-SEARCH_STEP = 2e-3  # of the belt in the search [m]
-BRANCH = 3  # steps of the search from one place to switch to the next
+SEARCH_STEP = 3e-3  # of the belt in the search [m]
+BRANCH = 4  # steps of the search from one place to switch to the next
 STEEPNESSES = (1.0, 0.55, 0.25)  # of the arcs, of the steepest
 SECOND = (-1.0, -0.4, 0.4)  # of the second of two arcs
 ANGLES = 25  # at which the search lets the object translate
@@ -55,7 +55,7 @@ LONGEST_TURN = 0.08  # belt of one turn in the search [m]
 # How far the search may go beyond bounds: d, x [m], theta [rad].
 D_GRACE, X_GRACE, THETA_GRACE = 1e-3, 1e-3, math.radians(3.0)
 REFINED_STEP = 1.5e-3  # of the belt in a refined push [m]
-FEWEST = 3  # steps of an arc
+FEWEST, MOST = 3, 25  # steps of an arc; a long one hardly turns the object
 NUDGE = 1e-6  # for differences, of a command and of a length in units of `LENGTH`
 # Of the method: factors of the diagonal tried in a round, their least, what keeps the diagonal from
 # 0, and the share of the cost whose gain is not worth another round.
@@ -66,7 +66,7 @@ DAMPINGS, LEAST_DAMPING, FLOOR, ENOUGH = 6, 1e-9, 1e-9, 1e-3
 def _count(push: Array, counts: Counts) -> None:
     """Write into how many steps each arc is cut."""
     for i in range(ARCS):
-        counts[i] = FEWEST + int(push[ARCS + i] * LENGTH / REFINED_STEP)
+        counts[i] = min(FEWEST + int(push[ARCS + i] * LENGTH / REFINED_STEP), MOST)
 
 
 @compiled

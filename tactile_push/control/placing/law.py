@@ -12,7 +12,7 @@ from tactile_push.control.placing.planner import Plan, Planner
 
 LEARNING, PLACING, RELEASED, MISSED = 'learning', 'placing', 'released', 'missed'
 KNOWN = 1e-3  # standard deviation of d below which the law commits itself [m]
-LEARNED_SHARE = 0.35  # of the belt, after which it does so anyhow; picked
+LEARNED_SHARE = 0.08  # of the belt, after which it does so anyhow; picked
 D_MARGIN, SPREADS = 2e-3, 1.0  # kept from the edge's ends [m], and deviations of d beside it
 DETOUR = 0.02  # belt of a plan that goes around once more, at least [m]
 X_MARGIN = 1e-3  # kept from the ends of the workspace [m]

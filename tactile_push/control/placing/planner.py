@@ -143,7 +143,9 @@ class Planner:
             self._rest(task, one, least, most, way) for one in (steep, bounds)
         )
         if best is None or not best.arrives or self._plans % LOOK_AROUND == 0:
-            new = _first_that_arrives(new_plan(task, one, least, most) for one in (spared, bounds))
+            # One search in a period is what there is time for.
+            other = spared if best is None or self._plans % 2 == 0 else bounds
+            new = new_plan(task, other, least, most, TRIES)
             if best is None or (new is not None and new.merit < best.merit - KEPT):
                 best = new
         self._last = best
@@ -161,7 +163,9 @@ class Planner:
         return Plan(push, *told) if told[0] < math.inf else None
 
 
-def new_plan(task: Task, bounds: Bounds, least: float, most: float) -> Plan | None:
+def new_plan(
+    task: Task, bounds: Bounds, least: float, most: float, tries: int = MORE_TRIES
+) -> Plan | None:
     """Plan from nothing.
 
     Parameters
@@ -172,6 +176,8 @@ def new_plan(task: Task, bounds: Bounds, least: float, most: float) -> Plan | No
         What the plan keeps to.
     least, most : float
         Belt that it may take [m].
+    tries : int, optional
+        Pushes of the search that are refined at the most, if none of the first few arrives.
 
     Returns
     -------
@@ -179,7 +185,7 @@ def new_plan(task: Task, bounds: Bounds, least: float, most: float) -> Plan | No
         The best one found; None if contact is lost whatever is done.
     """
     push = np.empty(UNKNOWNS)
-    told = plan(*task, bounds, least, most, TRIES, MORE_TRIES, ROUNDS, push)
+    told = plan(*task, bounds, least, most, TRIES, tries, ROUNDS, push)
     return Plan(push, *told) if told[0] < math.inf else None
 
 
