@@ -137,10 +137,9 @@ def rows(name: str, results: list[tuple[Case, Placement]]) -> list[tuple[str, ..
         shares = [f'{100.0 * np.mean((errors <= w).all(axis=1)):.0f} %' for w in WITHIN]
         x, theta = (f'{np.median(e):.2f}, {np.quantile(e, 0.95):.2f}' for e in errors.T)
         belt = 1e3 * np.median([p.belt for _, p in some])
-        ratio = np.median([p.belt / one.shortest for one, p in some])
-        cells.append(
-            (name, verdict, str(len(some)), *shares, x, theta, f'{belt:.0f}', f'{ratio:.2f}')
-        )
+        ratios = [p.belt / one.shortest for one, p in some if one.verdict != OUT_OF_REACH]
+        ratio = f'{np.median(ratios):.2f}' if ratios else ''
+        cells.append((name, verdict, str(len(some)), *shares, x, theta, f'{belt:.0f}', ratio))
     return cells
 
 
