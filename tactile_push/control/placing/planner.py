@@ -8,8 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tactile_push.control.placing.horizon import ARCS, LENGTH, UNKNOWNS, plan, refine, rest_of
+from tactile_push.control.placing.arcs import ARCS, LENGTH, UNKNOWNS, rest_of
+from tactile_push.control.placing.horizon import plan
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation
+from tactile_push.control.placing.refinement import refine
 from tactile_push.mechanics.compiled import Array
 
 # Pushes of the search that are refined, more of them if none arrives, and rounds of each.

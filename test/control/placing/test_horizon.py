@@ -1,16 +1,15 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""The planner's search and least squares against scipy, the shortest belt and what pushes reach."""
+"""The planner's best push against the shortest belt and against what pushes reach."""
 
 import math
 
 import numpy as np
 import pytest
-from scipy.optimize import least_squares
 
-from tactile_push.control.placing import horizon
+from tactile_push.control.placing import horizon, refinement
+from tactile_push.control.placing.arcs import ARCS, LENGTH, UNKNOWNS
 from tactile_push.control.placing.car import shortest_belt
-from tactile_push.control.placing.horizon import ARCS, LENGTH, RESIDUALS, UNKNOWNS
 from tactile_push.control.placing.model import (
     Bounds,
     Goal,
@@ -46,27 +45,6 @@ def end(start, push, numbers):
     return centre_of_mass(start, numbers), start.theta
 
 
-def test_the_least_squares_agree_with_scipy():
-    start, goal, numbers = Situation(0.0, 0.2, 0.003, 0.0, 0.0), Goal(-0.03, -0.1), pushed()
-    first = np.array((0.5, -0.4, -0.6, -1.2, 0.08, 0.08, 0.08, 0.18))
-    counts = np.array((9, 9, 9, 16))
-
-    def missed(push):
-        out = np.empty(RESIDUALS)
-        horizon.residuals(push, counts, start, goal, numbers, BOUNDS, 0.0, 0.3, out)
-        return out
-
-    high = np.array((STEEPEST,) * ARCS + (3.0,) * ARCS)
-    low = np.array((-STEEPEST,) * ARCS + (0.0,) * ARCS)
-    oracle = least_squares(missed, first, bounds=(low, high), x_scale='jac', xtol=1e-10, ftol=1e-10)
-    push = first.copy()
-    cost, x, theta, beyond = horizon.refine(push, start, goal, numbers, BOUNDS, 0.0, 0.3, 60)
-    assert 0.999 * oracle.cost <= cost <= 1.03 * oracle.cost
-    assert abs(x) < 2e-6
-    assert abs(theta) < 1e-4
-    assert beyond < 1.0
-
-
 @pytest.mark.parametrize('shift', [-0.03, 0.01, 0.04])
 def test_a_shift_takes_no_less_than_the_shortest_belt_and_no_more_than_with_the_cheapest_arcs(
     shift,
@@ -81,7 +59,7 @@ def test_a_shift_takes_no_less_than_the_shortest_belt_and_no_more_than_with_the_
     assert abs(told[2]) < 1e-4
     assert belt >= (1.0 - 2e-3) * shortest_belt(shift, wheelbase, STEEPEST)
     # A short shift takes 2 sqrt(L X/u) of belt s; s (BRIEF + EFFORT u^2/U^2) is least at this u.
-    cheapest = STEEPEST * math.sqrt(horizon.BRIEF / (3.0 * horizon.EFFORT))
+    cheapest = STEEPEST * math.sqrt(refinement.BRIEF / (3.0 * refinement.EFFORT))
     assert belt <= shortest_belt(shift, wheelbase, cheapest)
 
 
@@ -107,29 +85,3 @@ def test_what_a_push_reaches_is_found_again_on_no_longer_belt(mu_c):
         x, theta = end(start, push, numbers)
         assert x == pytest.approx(goal.x, abs=3e-4)
         assert theta == pytest.approx(goal.theta, abs=math.radians(0.3))
-
-
-def test_the_rest_of_a_push_leads_where_the_whole_does():
-    numbers = pushed()
-    start, goal = Situation(0.0, 0.2, 0.003, 0.0, 0.0), Goal(-0.03, -0.1)
-    push, _ = planned(start, goal, numbers, FREE)
-    whole = end(start, push, numbers)
-    rest, now = push.copy(), start
-    piece = 2.5e-3
-    for _ in range(10):
-        command = rest[0]
-        left = rest[ARCS] * LENGTH
-        piece_now = min(left, piece)
-        now = follow(now, command, piece_now, numbers)
-        after = np.empty(UNKNOWNS)
-        horizon.rest_of(rest, piece_now, after)
-        rest = after
-        assert rest[ARCS] > 0.0
-    assert end(now, rest, numbers) == pytest.approx(whole, abs=2e-5)
-
-
-def test_a_push_that_is_over_has_no_rest():
-    push = np.array((1.0, 0.5, -0.5, -1.0, 0.1, 0.1, 0.1, 0.1))
-    rest = np.empty(UNKNOWNS)
-    horizon.rest_of(push, 0.05, rest)
-    assert rest[ARCS:].sum() == pytest.approx(0.0, abs=1e-12)

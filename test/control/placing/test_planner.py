@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from tactile_push.control.placing.horizon import LENGTH
+from tactile_push.control.placing.arcs import LENGTH
 from tactile_push.control.placing.model import (
     Bounds,
     Goal,

@@ -1,0 +1,202 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""Searches pushes of a few arcs over all the belt that is left.
+
+The search tries pushes that turn the object, let it translate and turn it again, and pushes of two
+arcs, which on a leaf without bounds are the shortest ones (docs/placing.md).
+"""
+
+import math
+
+from tactile_push.control.placing.arcs import ARCS, LENGTH, UNKNOWNS
+from tactile_push.control.placing.model import (
+    Bounds,
+    Goal,
+    Pushed,
+    Situation,
+    centre_of_mass,
+    outside,
+    step,
+)
+from tactile_push.mechanics.compiled import Array, compiled, equation
+
+SEARCH_STEP = 3e-3  # of the belt in the search [m]
+BRANCH = 4  # steps of the search from one place to switch to the next
+STEEPNESSES = (1.0, 0.55, 0.25)  # of the arcs, of the steepest
+SECOND = (-1.0, -0.4, 0.4)  # of the second of two arcs
+ANGLES = 25  # at which the search lets the object translate
+FAMILIES = ANGLES * len(STEEPNESSES) + 2 * len(STEEPNESSES) * len(SECOND)
+LONGEST_TURN = 0.08  # belt of one turn in the search [m]
+# How far the search may go beyond bounds: d, x [m], theta [rad].
+D_GRACE, X_GRACE, THETA_GRACE = 1e-3, 1e-3, math.radians(3.0)
+
+
+@equation
+def _is_outside(now: Situation, bounds: Bounds) -> bool:
+    """Return whether anything is beyond its bounds."""
+    d, x, theta = outside(now, bounds)
+    return d > 0.0 or x > 0.0 or theta > 0.0
+
+
+@equation
+def _widened(start: Situation, bounds: Bounds) -> Bounds:
+    """Return bounds for the search, which the start keeps to."""
+    d, x, theta = outside(start, bounds)
+    d, x, theta = d + D_GRACE, x + X_GRACE, theta + THETA_GRACE
+    return Bounds(
+        bounds.steepest,
+        bounds.rate,
+        bounds.x_min - x,
+        bounds.x_max + x,
+        bounds.d_min - d,
+        bounds.d_max + d,
+        bounds.theta_max + theta,
+    )
+
+
+@compiled
+def _turn(
+    now: Situation, theta: float, steepness: float, pushed: Pushed, bounds: Bounds
+) -> tuple[Situation, float, float, bool]:
+    """Turn the object to an angle as fast as a steepness allows.
+
+    Returns what is then, the command, the belt that it took [m], and whether it got there.
+    """
+    command = math.copysign(steepness * bounds.steepest, theta - now.theta)
+    s, h = 0.0, SEARCH_STEP
+    while s < LONGEST_TURN:
+        after, pushes = step(now, command, h, pushed)
+        if not pushes or _is_outside(after, bounds):
+            return now, command, s, False
+        if (after.theta - theta) * command >= 0.0 and (after.theta - now.theta) * command > 0.0:
+            share = (theta - now.theta) / (after.theta - now.theta)
+            if share <= 0.0:  # it was there
+                return now, command, s, True
+            after, pushes = step(now, command, share * h, pushed)
+            return after, command, s + share * h, True
+        now = after
+        s += h
+    return now, command, s, False
+
+
+@compiled
+def search(
+    start: Situation,
+    goal: Goal,
+    pushed: Pushed,
+    bounds: Bounds,
+    least: float,
+    most: float,
+    found: Array,
+) -> None:
+    """Find pushes of three arcs (turn, translate, turn) and of two, over every length.
+
+    A row of `found` is cost, commands of the three arcs, and the belt to the end of each [m]. The
+    cost is the square of what is missed, in millimetres and degrees, and the belt in `LENGTH`s.
+    """
+    row, theta_max = 0, bounds.theta_max
+    bounds = _widened(start, bounds)
+    for i in range(ANGLES):
+        angle = theta_max * (2.0 * i / (ANGLES - 1) - 1.0)
+        for steepness in STEEPNESSES:
+            found[row, 0] = math.inf
+            first, first_u, first_s, there = _turn(start, angle, steepness, pushed, bounds)
+            if there:
+                _translate(
+                    *(first, first_u, first_s, steepness, goal, pushed, bounds, least, most),
+                    found[row],
+                )
+            row += 1
+    h = SEARCH_STEP
+    for sign in (-1.0, 1.0):
+        for out in STEEPNESSES:
+            for back in SECOND:
+                first_u, second_u = sign * out * bounds.steepest, sign * back * bounds.steepest
+                found[row, 0] = math.inf
+                now = start
+                for k in range(int(most / h)):
+                    if k % BRANCH == 0:
+                        _branch(
+                            *(now, k * h, first_u, second_u, goal, pushed, bounds, least, most),
+                            found[row],
+                        )
+                    now, pushes = step(now, first_u, h, pushed)
+                    if not pushes or _is_outside(now, bounds):
+                        break
+                row += 1
+
+
+@compiled
+def _translate(
+    now: Situation,
+    first_u: float,
+    first_s: float,
+    steepness: float,
+    goal: Goal,
+    pushed: Pushed,
+    bounds: Bounds,
+    least: float,
+    most: float,
+    best: Array,
+) -> None:
+    """Translate from where the first turn ended, as long as the last one asks for."""
+    # What turns on the way there goes on while the finger gets to its new command.
+    drift = -math.tan(now.theta + math.atan2(now.d, pushed.l))
+    if abs(drift) > bounds.steepest:
+        return
+    rest = Situation(now.x, now.theta, now.d, drift, drift)
+    after, last_u, last_s, there = _turn(rest, goal.theta, steepness, pushed, bounds)
+    if not there:
+        return
+    missing = goal.x - centre_of_mass(after, pushed)
+    way = missing / drift if drift != 0.0 else 0.0
+    longest = max(most - first_s - last_s, 0.0)
+    way = min(max(way, least - first_s - last_s, 0.0), longest)
+    end = now.x + drift * way
+    if first_s + last_s > most or end < bounds.x_min or end > bounds.x_max:
+        return
+    x_error = (missing - drift * way) / 1e-3
+    length = first_s + way + last_s
+    cost = x_error * x_error + length / LENGTH
+    best[0], best[1], best[2], best[3] = cost, first_u, drift, last_u
+    best[4], best[5], best[6] = first_s, first_s + way, length
+
+
+@compiled
+def _branch(
+    now: Situation,
+    switch: float,
+    first: float,
+    second: float,
+    goal: Goal,
+    pushed: Pushed,
+    bounds: Bounds,
+    least: float,
+    most: float,
+    best: Array,
+) -> None:
+    """Go on with the second arc, and note where the goal is nearest."""
+    h = SEARCH_STEP
+    s = switch
+    while s + h <= most:
+        now, pushes = step(now, second, h, pushed)
+        s += h
+        if not pushes or _is_outside(now, bounds):
+            return
+        if s >= least:
+            x_error = (centre_of_mass(now, pushed) - goal.x) / 1e-3
+            theta_error = math.degrees(now.theta - goal.theta)
+            cost = x_error * x_error + theta_error * theta_error + s / LENGTH
+            if cost < best[0]:
+                best[0], best[1], best[2], best[3] = cost, first, second, second
+                best[4], best[5], best[6] = switch, switch, s
+
+
+@compiled
+def arcs(row: Array, push: Array) -> None:
+    """Write a row of the search as a push; what it translates is two arcs."""
+    push[0], push[1], push[2], push[3] = row[1], row[2], row[2], row[3]
+    half = (row[5] - row[4]) / 2.0
+    push[4], push[5], push[6], push[7] = row[4], half, half, row[6] - row[5]
+    for i in range(ARCS, UNKNOWNS):
+        push[i] /= LENGTH
