@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+
+import math
+
+import numpy as np
+import pytest
+
+from tactile_push.control.placing.arcs import ARCS, LENGTH, UNKNOWNS
+from tactile_push.control.placing.model import (
+    Bounds,
+    Goal,
+    Pushed,
+    Situation,
+    centre_of_mass,
+    follow,
+)
+from tactile_push.control.placing.search import FAMILIES, arcs, search
+from tactile_push.mechanics.resistance import Pressure
+
+PRESSURE = Pressure(0.0187**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))
+NUMBERS = Pushed(0.02375, 0.0135, PRESSURE, 0.0, 1.0, 0.0, 0.0)  # which sticks
+BOUNDS = Bounds(1.5, 1e9, -0.1, 0.1, -0.022, 0.022, 0.8)
+START = Situation(0.0, 0.2, 0.003, 0.0, 0.0)
+
+
+def searched(goal, most=0.2):
+    found = np.empty((FAMILIES, 7))
+    search(START, goal, NUMBERS, BOUNDS, 0.0, most, found)
+    return found[np.isfinite(found[:, 0])]
+
+
+def followed(row):
+    push = np.empty(UNKNOWNS)
+    arcs(row, push)
+    now = START
+    for u, belt in zip(push[:ARCS], push[ARCS:], strict=True):
+        now = follow(now, u, belt * LENGTH, NUMBERS)
+    return now, push
+
+
+@pytest.mark.parametrize('goal', [Goal(-0.03, -0.1), Goal(0.01, 0.3)])
+def test_the_best_of_what_it_finds_costs_what_it_misses(goal):
+    found = searched(goal)
+    row = found[np.argmin(found[:, 0])]
+    now, push = followed(row)
+    x, theta = centre_of_mass(now, NUMBERS) - goal.x, now.theta - goal.theta
+    belt = push[ARCS:].sum()
+    assert math.hypot(1e3 * x, math.degrees(theta)) < 2.0  # one to begin with
+    assert row[0] == pytest.approx(belt + (1e3 * x) ** 2 + math.degrees(theta) ** 2, abs=0.5)
+
+
+def test_all_that_it_finds_keeps_to_belt_and_steepest_command():
+    found = searched(Goal(-0.03, -0.1), most=0.1)
+    assert len(found) > FAMILIES / 4
+    assert (found[:, 4:] >= 0.0).all()
+    assert (np.diff(found[:, 4:]) >= 0.0).all()
+    assert found[:, 6].max() <= 0.1 + 1e-12
+    assert np.abs(found[:, 1:4]).max() <= BOUNDS.steepest
+
+
+def test_nothing_is_found_where_the_belt_is_too_short_to_turn():
+    assert not len(searched(Goal(0.0, -0.3), most=0.005))
