@@ -59,5 +59,8 @@ def test_all_that_it_finds_keeps_to_belt_and_steepest_command():
     assert np.abs(found[:, 1:4]).max() <= BOUNDS.steepest
 
 
-def test_nothing_is_found_where_the_belt_is_too_short_to_turn():
-    assert not len(searched(Goal(0.0, -0.3), most=0.005))
+def test_on_a_belt_too_short_for_the_turn_what_it_finds_misses_the_rest_of_it():
+    wheelbase = (PRESSURE.c_squared + START.d**2 + NUMBERS.l**2) / math.hypot(START.d, NUMBERS.l)
+    turn = math.hypot(1.0, BOUNDS.steepest) / wheelbase * 0.005  # theta' <= sqrt(1 + U^2)/L
+    found = searched(Goal(0.0, -0.3), most=0.005)
+    assert found[:, 0].min() > math.degrees(0.5 - turn) ** 2
