@@ -4,11 +4,12 @@
 
 import argparse
 import json
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tactile_push.cli.arguments import Commands, Refused, picture, topic
-from tactile_push.interface import ACTIVE_SENSING, SIM_PLANT, TRUE_POSE
+from tactile_push.interface import ACTIVE_SENSING, MUJOCO_PLANT, SIM_PLANT, TRUE_POSE
 
 if TYPE_CHECKING:
     from tactile_push.identification.identify import Identified
@@ -59,7 +60,8 @@ def add(commands: Commands) -> None:
         '--params',
         type=Path,
         metavar='FILE',
-        help='parameter file to write, for active_sensing and sim_plant',
+        help='parameter file to write, for active_sensing and the plants, mujoco_plant unless the '
+        'support was known',
     )
     option(
         '--plot',
@@ -157,10 +159,16 @@ def _write_parameters(found: 'Identified', file: Path) -> None:
     from tactile_push.bags.disk import write_whole
     from tactile_push.calibration.parameter_file import parameter_file
     from tactile_push.cli.output import naming
-    from tactile_push.identification.object_file import plant_values, sensing_values
+    from tactile_push.identification.object_file import (
+        mujoco_plant_values,
+        plant_values,
+        sensing_values,
+    )
 
     try:
         values = {SIM_PLANT: plant_values(found), ACTIVE_SENSING: sensing_values(found)}
+        if not math.isnan(found.fit.physics.spread):
+            values[MUJOCO_PLANT] = mujoco_plant_values(found)
     except ValueError as error:
         raise Refused(f'--params: {error}') from None
     remark = f'Written by `tactile_push identify` from {len(found.pushes.pushes)} pushes.'

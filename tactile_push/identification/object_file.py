@@ -7,6 +7,7 @@ from typing import Any
 
 from tactile_push.identification.identify import Identified
 from tactile_push.paper import DISK
+from tactile_push.parameters.mujoco_plant import SPREAD
 from tactile_push.parameters.sim_plant import POLYGON
 
 SURE = 3.0  # standard deviations within which a number is taken to be
@@ -89,6 +90,32 @@ def plant_values(found: Identified) -> dict[str, object]:
     ValueError
         If the outline is neither a polygon nor a circle.
     """
+    return {**_pushed(found), 'c': found.fit.physics.support.c}
+
+
+def mujoco_plant_values(found: Identified) -> dict[str, object]:
+    """Return the parameters by which `mujoco_plant` simulates the object, on feet.
+
+    Parameters
+    ----------
+    found : Identified
+        What pushes say of the object, whose load is spread.
+
+    Returns
+    -------
+    dict
+        As `plant_values`, but how far the load is spread takes the place of c.
+
+    Raises
+    ------
+    ValueError
+        If the outline is neither a polygon nor a circle.
+    """
+    return {**_pushed(found), 'support': SPREAD, 'spread': found.fit.physics.spread}
+
+
+def _pushed(found: Identified) -> dict[str, object]:
+    """Return outline, mu_c if it is told, and a start on the first edge, for both plants."""
     physics, values = found.fit.physics, _outline(found)
     start: dict[str, object] = {'object': DISK}
     if 'vertices' in values:
@@ -96,7 +123,7 @@ def plant_values(found: Identified) -> dict[str, object]:
         first = x * math.cos(tau) + y * math.sin(tau)  # d of its first corner
         start = {'object': POLYGON, 'd_initial': float(min(max(first, 0.0), first + length))}
     friction = {} if 'mu_c' in found.fit.open else {'mu_c': physics.mu_c}
-    return {**start, **values, 'c': physics.support.c, **friction}
+    return {**start, **values, **friction}
 
 
 def _outline(found: Identified) -> dict[str, object]:

@@ -13,7 +13,7 @@ if typing.TYPE_CHECKING:
     from tactile_push.simulation import RigConfig
     from tactile_push.simulation.mujoco_model import MujocoPhysics
 
-UNIFORM, CORNERS, RIM = 'uniform', 'corners', 'rim'
+UNIFORM, CORNERS, RIM, SPREAD = 'uniform', 'corners', 'rim', 'spread'
 FEET = 36  # that stand for a uniform support or a rim; their c is 1 % below that of uniform support
 EVEN_PRISM = 0.0
 
@@ -24,8 +24,12 @@ class MujocoPlantParameters(SimPlantParameters):
 
     # fmt: off
     support: str = parameter(UNIFORM, '',
-        'what the object rests on: many feet under its area, feet under its corners or its rim',
-        choices=(UNIFORM, CORNERS, RIM), read_only=True)
+        'what the object rests on: many feet under its area, feet under its corners or its rim; or '
+        'feet with loads that are spread by the parameter spread, as `identify` finds it',
+        choices=(UNIFORM, CORNERS, RIM, SPREAD), read_only=True)
+    spread: float = parameter(1.0, '',
+        'how far the load is spread if support says so: 1 evenly, 2 to the rim, 3 to the corners',
+        0.2, 3.0, read_only=True)
     mu_s: float = parameter(0.3, '',
         'friction between object and belt', 1e-3, 10.0, read_only=True)
     mass: float = parameter(0.93, 'kg',
@@ -60,6 +64,8 @@ def mujoco_config(p: MujocoPlantParameters) -> tuple['RigConfig', 'MujocoPhysics
     try:
         if p.support == CORNERS:
             support = Support.corners(outline)
+        elif p.support == SPREAD:
+            support = Support.spread(outline, p.spread, FEET).carrying((0.0, 0.0))
         else:
             spread = Support.rim if p.support == RIM else Support.uniform
             support = spread(outline, FEET)

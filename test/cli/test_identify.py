@@ -70,7 +70,7 @@ def test_pushes_become_an_object_that_simulate_takes(command, write, tmp_path):
     assert [line.split()[0] for line in lines[1:6]] == ['c', 'mu_c', 'centre', 'errors', 'nominal']
     assert lines[6:] == [str(out), str(params), str(plot)]
     sections = read_sections(params)
-    assert [*sections] == ['/**/sim_plant', '/**/active_sensing']
+    assert [*sections] == ['/**/sim_plant', '/**/active_sensing', '/**/mujoco_plant']
     assert ActiveSensingParameters.of(sections['/**/active_sensing']).c_min < 1e-3 * float(
         lines[1].split()[1]
     )

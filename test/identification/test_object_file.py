@@ -10,10 +10,20 @@ import pytest
 
 from support.measured_pushes import VERTICES
 from tactile_push.identification.models import Physics
-from tactile_push.identification.object_file import object_content, plant_values, sensing_values
+from tactile_push.identification.object_file import (
+    mujoco_plant_values,
+    object_content,
+    plant_values,
+    sensing_values,
+)
 from tactile_push.mechanics import Outline, Support
-from tactile_push.parameters import ActiveSensingParameters, SimPlantParameters
+from tactile_push.parameters import (
+    ActiveSensingParameters,
+    MujocoPlantParameters,
+    SimPlantParameters,
+)
 from tactile_push.parameters.active_sensing import make_sensing
+from tactile_push.parameters.mujoco_plant import mujoco_config
 from tactile_push.parameters.sim_plant import rig_config
 from tactile_push.simulation import read_object
 
@@ -82,6 +92,19 @@ def test_the_plant_pushes_the_object_at_its_first_edge(identified):
     corners = config.slider.outline.points(1.0) + physics.support.centre
     assert corners == pytest.approx(np.array(VERTICES), abs=1e-12)
     assert config.d == 0.0
+
+
+def test_feet_in_mujoco_bear_the_object_as_it_was_found(identified):
+    config, feet = mujoco_config(MujocoPlantParameters.of(mujoco_plant_values(identified)))
+
+    physics = identified.fit.physics
+    corners = config.slider.outline.points(1.0) + physics.support.centre
+    assert corners == pytest.approx(np.array(VERTICES), abs=1e-12)
+    assert config.mu_c == physics.mu_c
+    # They are few: their c is a little below that of the pressure they stand for.
+    shares = feet.support.loads / feet.support.loads.sum()
+    assert shares @ np.hypot(*feet.support.points.T) == pytest.approx(physics.support.c, rel=0.03)
+    assert shares @ feet.support.points == pytest.approx([0.0, 0.0], abs=1e-12)
 
 
 def test_active_sensing_takes_a_disk_and_nothing_else_that_is_round(identified):

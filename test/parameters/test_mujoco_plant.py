@@ -33,6 +33,15 @@ def test_a_support_has_its_c(support, c):
     assert physics.support.c == pytest.approx(c, rel=0.02)
 
 
+@pytest.mark.parametrize(('spread', 'c'), [(1.0, 0.0187), (3.0, math.hypot(0.025, 0.02375))])
+def test_a_load_may_be_spread_by_a_number(spread, c):
+    given = {'support': 'spread', 'spread': spread}
+    _, physics = mujoco_config(MujocoPlantParameters(**given))
+    shares = physics.support.loads / physics.support.loads.sum()
+    assert shares @ np.hypot(*physics.support.points.T) == pytest.approx(c, rel=0.02)
+    assert shares @ physics.support.points == pytest.approx([0.0, 0.0], abs=1e-12)
+
+
 def test_the_push_and_the_object_are_as_given():
     given = {'mass': 2.0, 'object_height': 0.08, 'push_height': 0.02, 'mu_s': 0.4}
     _, physics = mujoco_config(MujocoPlantParameters(**given))
@@ -48,6 +57,10 @@ def test_the_push_and_the_object_are_as_given():
         ({'f_max': 1.0}, 'parameter f_max: expected 2.7, as mu_s and mass give it here, got 1.0'),
         ({'push_height': 0.06}, 'parameter push_height: expected a height of the object'),
         ({'object': 'disk', 'support': 'corners'}, 'parameter support: expected a polygon'),
+        (
+            {'object': 'disk', 'support': 'spread', 'spread': 2.5},
+            'parameter spread: expected a number from 0 to 2, got 2.5',
+        ),
         ({'d_initial': 0.3}, 'parameter d_initial: expected a contact'),
     ],
 )
