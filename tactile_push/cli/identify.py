@@ -47,7 +47,7 @@ def add(commands: Commands) -> None:
         type=topic,
         metavar='TOPIC',
         help="topic of the object's poses in bags, in finger_disk or finger_base (default: "
-        f'{TRUE_POSE})',
+        f'{TRUE_POSE}; of several fingers the one in its namespace counts)',
     )
     option(
         '-o',

@@ -46,7 +46,7 @@ def pushes_in_bag(bag: BagReader, known: ObjectFile, topic: str | None = None) -
     Parameters
     ----------
     bag : BagReader
-        The bag. Of several fingers the first one counts.
+        The bag. Of several fingers that counts in whose namespace the topic is.
     known : ObjectFile
         The object. The origin of its outline is where the poses are those of.
     topic : str, optional
@@ -63,9 +63,10 @@ def pushes_in_bag(bag: BagReader, known: ObjectFile, topic: str | None = None) -
     BagError
         If the bag cannot be read or says nothing of a controller.
     ValueError
-        If it has no such poses.
+        If it has no such poses, or several fingers and the topic is not that of one of them.
     """
-    namespace = next(iter(fingers_in(bag, [CONTROLLER_STATE], [CONTROLLER_STATE], NOTHING)))
+    found = fingers_in(bag, [CONTROLLER_STATE], [CONTROLLER_STATE], NOTHING)
+    namespace = _finger_of(bag, [*found], topic)
     topic = topic or f'{namespace}/{TRUE_POSE}'
     frame = _frame(bag, topic)
     tables, _ = read_tables(bag, {f'{namespace}/{CONTROLLER_STATE}': CONTROLLER_STATE, topic: ''})
@@ -139,6 +140,20 @@ def _finger(
         raise ValueError(f'{bag.path}: expected angles of {", ".join(names)} on {topic}, got none')
     x, y = (np.interp(time, table['time'], table[axis], np.nan, np.nan) for axis in 'xy')
     return x, y
+
+
+def _finger_of(bag: BagReader, namespaces: list[str], topic: str | None) -> str:
+    """Return the namespace of the finger whose object's poses are on a topic."""
+    if len(namespaces) == 1:
+        return namespaces[0]
+    inside = [space for space in namespaces if topic and topic.startswith(f'{space}/')]
+    if not inside:
+        fingers = ' and '.join(space or '/' for space in namespaces)
+        raise ValueError(
+            f'{bag.path}: expected poses in the namespace of a finger, {fingers}, got '
+            f'{topic or "no topic"}'
+        )
+    return max(inside, key=len)
 
 
 def _stretches(ticks: Table, time: Array, places: Array) -> Iterator[list[int]]:

@@ -42,7 +42,11 @@ def write(run, tmp_path):
     """Return a function that writes a bag of the run."""
 
     def written(
-        frame='finger_disk', topic='/ground_truth/object_pose', pushing=lambda t: True, lost=()
+        frame='finger_disk',
+        topic='/ground_truth/object_pose',
+        pushing=lambda t: True,
+        lost=(),
+        fingers=('',),
     ):
         poses, states, joints = [], [], []
         for t, f_x, f_y, psi, x, y, angle, angles in run:
@@ -62,10 +66,13 @@ def write(run, tmp_path):
             joints.append((stamp, joint_state(stamp, **names)))
         topics = {
             topic: (POSE_TYPE, poses),
-            '/push_controller/state': (STATE, states),
             JOINTS: (STATE, joints),
+            **{f'{finger}/push_controller/state': (STATE, states) for finger in fingers},
         }
-        notes = {'push_controller': {'belt_speed': BELT}, 'contact_geometry': {}}
+        notes = {
+            f'{finger}/push_controller'.removeprefix('/'): {'belt_speed': BELT}
+            for finger in fingers[-1:]  # the others have the usual one
+        }
         with BagWriter(tmp_path / 'bag') as bag:
             bag.note(PARAMETERS_NOTE, json.dumps(notes))
             for name, (kind, messages) in topics.items():
@@ -110,6 +117,18 @@ def test_stretches_without_a_push_or_without_poses_are_left_out(write):
     pushes = found(write(pushing=lambda t: t < half, lost=lost))
 
     assert len(pushes.pushes) == 2  # from 16 mm, of which 2 mm are lost in the second half of them
+
+
+def test_of_two_fingers_the_topic_names_one(write):
+    topic, fingers = '/right/ground_truth/object_pose', ('/left', '/right')
+    bag = write(topic=topic, fingers=fingers)
+
+    pushes = found(bag, topic)
+
+    assert errors_of(residuals(pushes, Physics(SUPPORT, MU_C))).position.max() < 4e-5
+    for other in (None, '/mocap/block'):
+        with pytest.raises(ValueError, match='expected poses in the namespace of a finger, /left'):
+            found(bag, other)
 
 
 def test_poses_of_another_topic_are_those_of_a_camera(write):
