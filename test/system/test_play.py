@@ -92,6 +92,19 @@ def pushes(states: list[Any]) -> tuple[np.ndarray, np.ndarray, int]:
     )
 
 
+def extrapolated_by(joint_states: list[Any], key: tuple[int, int]) -> float:
+    """Give the most by which a contact may differ that knew one joint state more or less [rad].
+
+    That is all that may differ: a joint state that overtakes its reading, or is overtaken, decides
+    whether the tip's angle is extrapolated. It then goes on by a step of the joints at the most,
+    in place of the one that they made.
+    """
+    at = np.array([seconds(m) for m in joint_states])
+    turned = np.array([sum(m.position) for m in joint_states])
+    near = turned[np.abs(at - (key[0] + 1e-9 * key[1])) < 0.11]  # two steps of the joints
+    return 2.0 * float(np.abs(np.diff(near)).max()) + 1e-12
+
+
 def times_of(diagnostics: list[DiagnosticArray]) -> list[tuple[str, int]]:
     """Give names of nodes and the times that they had [ns]."""
     return [
@@ -132,13 +145,15 @@ def test_readings_and_joints_drive_geometry_and_controller_as_if_live(
     played_from = divmod(begin, 10**9)
     first = next(s for s in map(stamp, recorded(rig_bag, '/joint_states')) if s >= played_from)
     live = {stamp(m): pose(m) for m in recorded(rig_bag, '/contact') if stamp(m) > first}
-    played = {stamp(m): pose(m) for m in contacts}
     assert len(live) > 2 * STEPS
-    assert played.keys() >= live.keys()
-    # A joint state that overtakes its reading, or is overtaken, decides whether the tip's angle is
-    # extrapolated: that is all that may differ.
+    observer.wait_for(
+        lambda: {stamp(m) for m in contacts} >= live.keys(), 'a contact for each that was recorded'
+    )
+    played = {stamp(m): pose(m) for m in contacts}
     errors = [max(abs(np.subtract(played[key], live[key]))) for key in live]
-    assert max(errors) < 1e-4
+    joint_states = recorded(rig_bag, '/joint_states')
+    bounds = [extrapolated_by(joint_states, key) for key in live]
+    assert np.all(np.less_equal(errors, bounds))
     assert np.median(errors) == 0.0
 
     times, v_x, updates = pushes(states)
