@@ -119,6 +119,7 @@ WITHOUT_UNIT = {
     'seed',
     'sensor_dropout',
     'sensor_outlier',
+    'spread',
     'steps',
     'untouched_images',
 }
