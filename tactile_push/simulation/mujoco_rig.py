@@ -47,6 +47,7 @@ from tactile_push.tactile.planar_finger import pole_angle
 
 SETTLING = 0.2  # for the feet to take the weight [s]: five times as long as they swing
 RETREAT = 0.01  # of the tip meanwhile [m]
+OVERHEAD = 0.01  # between object and lifted tip [m]
 LOOSE = 0.2  # share of the friction on the belt that a finger in contact feels at least; picked
 FIRST_DENT = 1e-6  # with which finger and object touch at the start [m]
 HOLD = 5.0  # rate at which the finger goes back to its line across the belt [1/s]; picked
@@ -82,7 +83,7 @@ class MujocoRig:
         self.faults = faults
         self._model = mujoco.MjModel.from_xml_string(model_xml(config, physics))
         self._data = mujoco.MjData(self._model)
-        self._object = self._model.body('object').id
+        self._object, self._tip = (self._model.body(name).id for name in ('object', 'tip'))
         self._touch = [self._model.geom(name).id for name in ('tip', 'side')]
         links = config.finger
         # The knuckle points across the belt, the pole along it.
@@ -91,17 +92,23 @@ class MujocoRig:
         self._wanted = 0.0  # velocity that the servos are asked for now [m/s]
         self.time = 0.0  #: how long it has been in motion [s]
         self.v_y = 0.0  #: the belt's speed at the end of the last step [m/s]
+        self.lifted = False  #: whether the finger is lifted off the object
         self.touching = True  #: whether finger and object touch
-        self.theta = config.theta  #: angle of the tangent plane at the last contact [rad]
+        #: angle of the tangent plane at the last contact [rad], which turns with a released object
+        self.theta = config.theta
         #: what the finger exerts on the object, x and y in `finger_base` [N]
         self.contact_force = (0.0, 0.0)
         self.normal_force = 0.0  #: its part along the normal [N]
         self.mode = FREE  #: how the contact moved at the end of the last step, an index of `MODES`
         self.phi = math.pi / 2.0  #: direction of the finger on the belt [rad]
         self.at_workspace_limit = False  #: whether the finger could not follow its velocity
-        self._put_down()
+        self._edge = 0.0  # angle of a released object's edge in the object [rad]
+        self._settle()
+        # How an object lies that is touched as configured, from where the finger is.
+        self._laid = self._data.qpos[:BASE].copy()
+        self._laid[:2] -= self.finger_x, self.finger_y
 
-    def _put_down(self) -> None:
+    def _settle(self) -> None:
         """Let the object settle on its feet, and touch it."""
         finger, q = self.config.finger, self._data.qpos
         pose = Rig(self.config).object_pose
@@ -116,6 +123,34 @@ class MujocoRig:
         self._data.qvel[:] = 0.0
         mujoco.mj_forward(self._model, self._data)
         self.time = 0.0
+        self._look()
+
+    def lift(self) -> None:
+        """Lift the finger off the object, which the belt carries on as it lies."""
+        if self.lifted:
+            return
+        self.lifted = True
+        physics = self.physics
+        height = physics.object_height - physics.push_height + self.config.radius + OVERHEAD
+        self._model.body_pos[self._tip, 2] = height
+        self._edge = self.theta - self.object_pose.angle
+        mujoco.mj_forward(self._model, self._data)
+        self._look()
+
+    def put_down(self) -> None:
+        """Put the finger down at the next object, which it touches as it did the first one.
+
+        Nothing happens to a finger that is down.
+        """
+        if not self.lifted:
+            return
+        self.lifted = False
+        self._model.body_pos[self._tip, 2] = 0.0
+        finger = self.finger_x, self.finger_y
+        self._data.qpos[:BASE] = self._laid
+        self._data.qpos[:2] += finger
+        self._data.qvel[:BASE_RATE] = 0.0
+        mujoco.mj_forward(self._model, self._data)
         self._look()
 
     @property
@@ -329,6 +364,8 @@ class MujocoRig:
         self.touching = len(found) > 0
         if not self.touching:
             self.mode, self.normal_force, self.contact_force = FREE, 0.0, (0.0, 0.0)
+            if self.lifted:
+                self.theta = self.object_pose.angle + self._edge
             return
         contact = data.contact[found[0]]
         normal, *along = contact.frame.reshape(3, 3)

@@ -177,6 +177,7 @@ class Rig:
         self.finger_y = 0.0  #: the same along the belt, where the finger moves at +v_y [m]
         self.belt_travel = 0.0  #: how far the belt has moved [m]
         self.psi = math.pi / 2.0  #: angle of the finger tip's pole in `finger_base` [rad]
+        self.lifted = False  #: whether the finger is lifted off the object
         self.touching = True  #: whether finger and object touch
         self.sigma = config.sigma  #: position of the disk along its path around the object [m]
         self.mode = FREE  #: how the contact moved at the end of the last step, an index of `MODES`
@@ -184,15 +185,34 @@ class Rig:
         self.at_workspace_limit = False  #: whether the finger could not follow its velocity
         # How the object moved last, in its own axes; None if it has not moved.
         self._slid: tuple[float, float, float] | None = None
-        angle = config.theta - tangent_angle(self.sigma, self._body.path)
-        d, l = self._contact
-        x, y = reach(config.theta, d, l, config.radius)
         #: centre of mass and orientation of the object on the belt
-        self.object_pose = Pose(-x, -y, angle)
+        self.object_pose = self._first_pose()
+
+    def _first_pose(self) -> Pose:
+        """Return the pose on the belt of an object that the finger touches as configured."""
+        theta, path = self.config.theta, self._body.path
+        d, l = self._contact
+        x, y = reach(theta, d, l, self.config.radius)
+        return Pose(self.finger_x - x, self.finger_y - y, theta - tangent_angle(self.sigma, path))
+
+    def lift(self) -> None:
+        """Lift the finger off the object, which the belt carries on as it lies."""
+        self.lifted, self.touching, self.mode = True, False, FREE
+
+    def put_down(self) -> None:
+        """Put the finger down at the next object, which it touches as it did the first one.
+
+        Nothing happens to a finger that is down.
+        """
+        if not self.lifted:
+            return
+        self.lifted, self.touching = False, True
+        self.sigma, self._slid = self.config.sigma, None
+        self.object_pose = self._first_pose()
 
     @property
     def theta(self) -> float:
-        """Angle of the edge or tangent that touches or is nearest to the finger [rad]."""
+        """Angle of the edge or tangent that the finger touches, or touched last [rad]."""
         return self.object_pose.angle + tangent_angle(self.sigma, self._body.path)
 
     @property
@@ -370,18 +390,23 @@ class Rig:
             self.psi = psi
             return
         self.phi = math.atan2(v_y, v_x)
+        if not self.lifted:
+            self._push(v_x, v_y, (psi - self.psi) / duration, duration)
+        self.finger_x += v_x * duration
+        self.finger_y += v_y * duration
+        self.psi = psi
+
+    def _push(self, v_x: float, v_y: float, turning: float, duration: float) -> None:
+        """Let the finger, which moves on the belt and turns evenly, move what is in its way."""
         before = self.object_pose
         self.object_pose, self.sigma, self.touching, self.mode = move_finger(
             *(self.object_pose, self.sigma, self.touching, self.finger_x, self.finger_y),
             *(v_x, v_y, duration, self._body, Finger(*self._friction_cone, self.config.radius)),
-            (psi - self.psi) / duration,
+            turning,
         )
         x, y, angle = (a - b for a, b in zip(self.object_pose, before, strict=True))
         if self.touching and (x or y or angle):
             self._slid = *rotated(x, y, -self.object_pose.angle), angle
-        self.finger_x += v_x * duration
-        self.finger_y += v_y * duration
-        self.psi = psi
 
 
 def directions(theta: float, alpha: float, phi: float) -> dict[str, tuple[float, float]]:

@@ -183,6 +183,41 @@ def test_a_finger_that_leaves_feels_nothing():
     assert rig.gap > 1e-3
 
 
+def test_a_lifted_finger_leaves_the_object_as_it_lies():
+    rig = pushed(MujocoRig(config(), PHYSICS), 5)
+    placed, theta, ahead = rig.object_pose, rig.theta, rig.object_in_finger_disk.y
+    rig.lift()
+    assert not rig.touching
+    # Across where the object lies, and back.
+    pushed(rig, 3, 0.05)
+    pushed(rig, 3, -0.05)
+    assert not rig.touching
+    assert math.isnan(rig.reading().azimuth)
+    # It comes to rest within V_Y / RATE, the friction of MuJoCo being viscous at such velocities.
+    assert tuple(rig.object_pose)[:2] == pytest.approx(tuple(placed)[:2], abs=2e-5)
+    assert rig.object_pose.angle == pytest.approx(placed.angle, abs=1e-4)
+    assert rig.theta - theta == pytest.approx(rig.object_pose.angle - placed.angle)
+    assert rig.object_in_finger_disk.y == pytest.approx(ahead - 0.003, abs=1e-4)
+
+
+def test_the_next_object_comes_as_the_first_one_did():
+    rig = MujocoRig(config(), PHYSICS)
+    first = rig.object_in_finger_disk
+    pushed(rig, 5, 0.004)
+    rig.put_down()  # which it is
+    assert rig.theta != pytest.approx(FIGURE_8[0], abs=1e-4)
+    rig.lift()
+    pushed(rig, 2, 0.004)
+    finger = rig.finger_x
+    rig.put_down()
+    assert rig.finger_x == finger
+    assert rig.touching
+    assert tuple(rig.object_in_finger_disk) == pytest.approx(tuple(first), abs=1e-6)
+    assert rig.theta == pytest.approx(FIGURE_8[0], abs=1e-4)
+    own = Rig(rig.config)
+    assert pushed(rig, 5).theta == pytest.approx(pushed(own, 5).theta, abs=math.radians(0.1))
+
+
 def test_the_reading_has_the_force():
     rig = pushed(MujocoRig(config(), PHYSICS), 10)
     assert rig.reading().normal_force == rig.normal_force > 1.0

@@ -975,6 +975,54 @@ def test_force_ends_with_the_contact_and_stays_while_the_belt_stands():
     assert rig.contact_force == (0.0, 0.0)
 
 
+def test_a_lifted_finger_leaves_the_object_as_it_lies():
+    rig = Rig(dataclasses.replace(paper_block(0.2, 0.003), tip_turns=True))
+    rig.step(0.002, 1.0)
+    placed, theta, psi = rig.object_pose, rig.theta, rig.psi
+    rig.lift()
+    assert rig.lifted
+    assert not rig.reading().in_contact
+    assert rig.contact_force == (0.0, 0.0)
+    ahead = rig.object_in_finger_disk.y
+    rig.step(0.01, 1.0)
+    assert rig.object_pose == placed
+    assert (rig.theta, MODES[rig.mode]) == (theta, 'free')
+    assert rig.finger_x == pytest.approx(0.012)
+    assert rig.psi != psi
+    # The belt carries it past the finger, which pushes it no more.
+    assert rig.object_in_finger_disk.y == pytest.approx(ahead - 0.005)
+    rig.step(0.0, 12.0)
+    assert rig.object_pose == placed
+
+
+def test_the_next_object_comes_as_the_first_one_did():
+    first = Rig(paper_block(0.2, 0.003, mu_c=0.4))
+    second = Rig(first.config)
+    second.step(0.004, 3.0)
+    second.lift()
+    second.step(-0.002, 1.0)
+    beside = second.finger_x, second.finger_y
+    second.put_down()
+    assert not second.lifted
+    assert (second.theta, second.d) == pytest.approx((0.2, 0.003))
+    assert polygon_gap(BLOCK, second) == pytest.approx(0.0, abs=1e-15)
+    assert (second.finger_x, second.finger_y) == beside
+    assert second.reading() == first.reading()
+    assert second.contact_force == pytest.approx(first.contact_force)
+    for rig in (first, second):
+        rig.step(0.001, 2.0)
+    assert tuple(second.object_in_finger_disk) == pytest.approx(tuple(first.object_in_finger_disk))
+    assert second.mode == first.mode
+
+
+def test_a_finger_that_is_down_is_not_put_down():
+    rig = Rig(paper_block())
+    rig.step(0.001, 1.0)
+    lies, slid = rig.object_pose, rig.contact_force
+    rig.put_down()
+    assert (rig.object_pose, rig.contact_force) == (lies, slid)
+
+
 GOOD = {
     'slider': Slider(Outline.rectangle(0.05, 0.0475), 0.0187),
     'mu_c': 1.0,

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 HEIGHT = 0.02  # of what stands on the belt [m]; picked, as all sizes and colours here
 ABOVE = 0.022  # height of an estimate, so that it is seen beside the true object [m]
+LIFTED = 0.06  # height of the centre of a lifted finger [m]
 SPACING = 0.002  # of points on curved outlines [m]
 STEEL = ColorRGBA(r=0.55, g=0.60, b=0.68, a=1.0)
 RUBBER = ColorRGBA(r=0.15, g=0.15, b=0.18, a=1.0)
@@ -41,7 +42,7 @@ def rig_markers(rig: 'Rig | MujocoRig', stamp: Time) -> MarkerArray:
     _place(body, pose.x, pose.y, pose.angle)
     body.points = _prism(rig.config.slider.outline.points(SPACING))
     finger = _marker(stamp, 'finger', Marker.SPHERE, RUBBER, (2.0 * rig.config.radius,) * 3)
-    finger.pose.position.z = HEIGHT / 2
+    finger.pose.position.z = LIFTED if rig.lifted else HEIGHT / 2
     belt = _marker(stamp, 'belt', Marker.CUBE, BELT, (0.3, 0.4, 0.002))
     belt.pose.position.z = -0.001
     normal, cone, push = rays = [

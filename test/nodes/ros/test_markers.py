@@ -72,6 +72,17 @@ def test_every_marker_can_be_shown(config):
             assert marker.scale.z > 0.0
 
 
+def test_a_lifted_finger_hovers_over_the_object():
+    rig = Rig(paper_block())
+    down = by_namespace(rig)
+    rig.lift()
+    lifted = by_namespace(rig)
+    top = max(point.z for point in lifted['object'].points)
+    height, size = lifted['finger'].pose.position.z, lifted['finger'].scale.z
+    assert height - size / 2.0 > top > down['finger'].pose.position.z
+    assert {lifted[name].action for name in RAYS} == {Marker.DELETE}
+
+
 def test_things_shown_are_those_of_the_interface():
     assert set(by_namespace(Rig(paper_block()))) == {'belt', 'object', 'finger', *RAYS}
 
