@@ -3,11 +3,12 @@
 """One object placed on the rig, through sensor, finger and the steps that the nodes run."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from tactile_push.control import PUSHING, WAITING, Limits, PushControl
+from tactile_push.control import PUSHING, WAITING, Limits, PushControl, Tick
 from tactile_push.control.placing.law import LEARNING, MISSED, Belief, PlaceLaw
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Pushed
@@ -46,6 +47,7 @@ def place(
     faults: Faults = NO_FAULTS,
     limits: Limits | None = None,
     seed: int = 0,
+    watch: Callable[[Rig, Tick], None] = lambda rig, tick: None,
 ) -> Placement:
     """Place an object on the rig.
 
@@ -65,6 +67,8 @@ def place(
         When to stop and how fast to go at the most.
     seed : int, optional
         Of the sensor's errors.
+    watch : callable, optional
+        Told rig and tick as each control period begins, and once more when the object is let go.
 
     Returns
     -------
@@ -77,11 +81,13 @@ def place(
     noise, piece = faults.sensor.noise, period * config.belt_speed
     learned, end = 0.0, ''
     for k, tick in enumerate(control_periods(rig, push, 1, seed)):
+        watch(rig, tick)
         if tick.state not in (PUSHING, WAITING) or tick.silence > push.limits.contact_timeout:
             end = tick.stop_reason or tick.state
             break
         if not math.isnan(law.let_go_in):
             rig.step(tick.v_x or 0.0, law.let_go_in)
+            watch(rig, tick)
             break
         if law.stage == MISSED:
             break
