@@ -54,6 +54,7 @@ from tactile_push.simulation.commanded import (
     CommandedVelocity,
 )
 from tactile_push.simulation.pace import Pace
+from tactile_push.simulation.truth import true_values
 from tactile_push.tactile import Reading
 
 if TYPE_CHECKING:
@@ -305,18 +306,7 @@ class PlantNode(Node, Generic[P]):
         in_disk = rig.object_in_finger_disk
         at = (stamp.sec, stamp.nanosec)
         publish(self._object_pose, pose_fields(at, in_disk.x, in_disk.y, in_disk.angle))
-        fields = {
-            'theta': rig.theta if rig.touching else math.nan,
-            'd': rig.d if rig.touching else math.nan,
-            'phi': rig.phi,
-            'mode': float(rig.mode),
-            'v_x': rig.v_x,
-            'v_x_commanded': self._commanded.v_x,
-            'finger_x': rig.finger_x,
-            'psi': rig.psi,
-            'belt_speed': rig.v_y,
-            'belt_travel': rig.belt_travel,
-        }
+        fields = true_values(rig, self._commanded.v_x)
         publish(self._state, joint_state_fields(at, fields))
 
     def _health(self) -> Health:
