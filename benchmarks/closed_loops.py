@@ -21,7 +21,7 @@ from rich.console import Console
 from rich.table import Table
 
 from tactile_push.bags import BagReader
-from tactile_push.demo import run_demo
+from tactile_push.demo.turning import run_demo
 from tactile_push.interface import PLANTS, SENSORS
 from tactile_push.replay import estimate
 from tactile_push.report.outcome import step_words

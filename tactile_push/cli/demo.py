@@ -14,7 +14,7 @@ from tactile_push.needs_opencv import opencv_is_missing
 from tactile_push.paper import DISK
 
 if TYPE_CHECKING:
-    from tactile_push.demo import RigResult
+    from tactile_push.demo.turning import RigResult
 
 PHYSICS = {'paper': SIM_PLANT, 'mujoco': MUJOCO_PLANT}
 
@@ -58,8 +58,9 @@ def _demo(options: argparse.Namespace) -> int:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-    from tactile_push import demo
     from tactile_push.cli.output import naming
+    from tactile_push.demo.running import DemoError
+    from tactile_push.demo.turning import RIGS, STEPS, run_demo
 
     bar = Progress(
         TextColumn('{task.description:8}'),
@@ -73,19 +74,19 @@ def _demo(options: argparse.Namespace) -> int:
         return 2
     if options.sensor == CAMERA and opencv_is_missing('tactile_push demo', 'cv2'):
         return 2
-    tasks = {name: bar.add_task(name, total=demo.STEPS) for name in demo.RIGS}
+    tasks = {name: bar.add_task(name, total=STEPS) for name in RIGS}
     try:
         with naming(options.out):
             options.out.mkdir(parents=True, exist_ok=True)  # before a bar is shown in vain
             with bar:
-                results = demo.run_demo(
+                results = run_demo(
                     options.out,
-                    lambda name, steps: bar.update(tasks[name], completed=min(steps, demo.STEPS)),
+                    lambda name, steps: bar.update(tasks[name], completed=min(steps, STEPS)),
                     plant,
                     options.sensor,
                     lambda address: bar.console.print(f'to watch: {address}', soft_wrap=True),
                 )
-    except demo.DemoError as error:
+    except DemoError as error:
         raise Refused(error, status=1) from None
     if options.json:
         rigs = {name: result.as_json() for name, result in results.items()}

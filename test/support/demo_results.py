@@ -4,7 +4,7 @@
 
 import numpy as np
 
-from tactile_push.demo import DISTANCES, RIGS, RigResult
+from tactile_push.demo.turning import DISTANCES, RIGS, RigResult
 from tactile_push.report.merit import push_figures
 
 

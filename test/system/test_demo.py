@@ -21,7 +21,7 @@ from support.waiting import wait_for
 from tactile_push.bags import BagReader
 from tactile_push.cli import main
 from tactile_push.control import PUSHING
-from tactile_push.demo import STEPS
+from tactile_push.demo.turning import STEPS
 from tactile_push.interface import (
     CLOCK,
     CONTACT,
