@@ -45,6 +45,7 @@ from tactile_push.control.states import (
     WORKSPACE_LIMIT,
 )
 from tactile_push.control.steadying import Steadying
+from tactile_push.control.steering import Steering
 from tactile_push.control.tick_state import tick_of, tick_values
 
 __all__ = [
@@ -86,6 +87,7 @@ __all__ = [
     'ServoLimits',
     'ServoStep',
     'Steadying',
+    'Steering',
     'Tick',
     'check_workspace',
     'disk_velocity',

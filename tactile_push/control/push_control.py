@@ -24,6 +24,7 @@ from tactile_push.control.states import (
     WORKSPACE_LIMIT,
 )
 from tactile_push.control.steadying import Steadying
+from tactile_push.control.steering import Steering
 
 
 @dataclass(frozen=True)
@@ -107,7 +108,7 @@ class PushControl:
         Control period [s].
     limits : Limits, optional
         When to stop and how fast to go at the most; may be changed at any time.
-    steadying : Steadying, optional
+    steadying : Steadying or Steering, optional
         What trims theta_d; nothing by default; may be changed at any time.
 
     Attributes
@@ -122,7 +123,7 @@ class PushControl:
         belt_speed: float,
         period: float,
         limits: Limits | None = None,
-        steadying: Steadying | None = None,
+        steadying: Steadying | Steering | None = None,
     ) -> None:
         self.law = law
         self.belt_speed = belt_speed
@@ -130,6 +131,7 @@ class PushControl:
         self.limits = limits or Limits()
         self.steadying = steadying or Steadying()
         self._finger_due = math.inf  # when its position has to be known [s]
+        self._steadied_at = math.nan  # stamp of the last reading that steadying took [s]
         self.activate(0.0)
         self.state = INACTIVE
 
@@ -325,9 +327,14 @@ class PushControl:
         """Trim theta_d for the law."""
         x, psi = self._finger.value, self._pole.value
         theta, theta_desired = self._contact.value, self.law.theta_desired
-        self.law.trim = self.steadying.follow(theta, theta_desired, x, psi, self.period)
+        elapsed = self._contact.stamp - self._steadied_at
+        if not elapsed > 0.0:  # this is the first one
+            elapsed = self.period
+        self._steadied_at = self._contact.stamp
+        self.law.trim = self.steadying.follow(theta, theta_desired, x, psi, elapsed)
 
     def _end_steadying(self) -> None:
+        self._steadied_at = math.nan
         self.steadying.reset()
         self.law.trim = 0.0
 

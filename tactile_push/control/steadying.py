@@ -58,7 +58,7 @@ class Steadying:
     def follow(
         self, theta: float, theta_desired: float, x: float, psi: float, period: float
     ) -> float:
-        """Trim theta_d by what has happened in a control period.
+        """Trim theta_d by what has happened since the last reading.
 
         Parameters
         ----------
@@ -68,7 +68,7 @@ class Steadying:
             Where the finger's disk is across the belt [m], and the angle of its pole [rad]. While
             one of them is NaN the trim stays.
         period : float
-            Control period [s].
+            Time since the last reading [s].
 
         Returns
         -------

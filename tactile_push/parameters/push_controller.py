@@ -111,7 +111,8 @@ def take_values(control: PushControl, p: PushControllerParameters) -> None:
     """Set the control's values that may change while it runs."""
     law, limits = control.law, control.limits
     law.kp, law.kd, law.theta_desired = p.kp, p.kd, p.theta_desired
-    control.steadying.bound = p.steadying_max
+    if isinstance(control.steadying, Steadying):
+        control.steadying.bound = p.steadying_max
     limits.contact_timeout = p.contact_timeout
     limits.joint_state_timeout = p.joint_state_timeout
     limits.max_ticks_lost = p.max_ticks_lost

@@ -9,7 +9,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tactile_push.control import PUSHING, WAITING, Limits, PushControl, PushLaw, Steadying, Tick
+from tactile_push.control import (
+    PUSHING,
+    WAITING,
+    Limits,
+    PushControl,
+    PushLaw,
+    Steadying,
+    Steering,
+    Tick,
+)
 from tactile_push.interface import JOINT_STATES, TOPICS, WRIST_JOINT
 from tactile_push.pipeline import Control, Geometry, Stamp
 from tactile_push.simulation.faults import NO_FAULTS, Faults
@@ -36,7 +45,7 @@ def experiment(
     faults: Faults = NO_FAULTS,
     sensor_rate: float | None = None,
     limits: Limits | None = None,
-    steadying: Steadying | None = None,
+    steadying: Steadying | Steering | None = None,
     seed: int = 0,
 ) -> Rollout:
     """Run the control law on the rig, through its sensor and its finger.
@@ -59,7 +68,7 @@ def experiment(
         Readings a second [Hz], a whole number in each control period; one by default.
     limits : Limits, optional
         When the controller stops, which ends the run, and how fast it may go.
-    steadying : Steadying, optional
+    steadying : Steadying or Steering, optional
         What trims theta_d; nothing by default. The run changes it.
     seed : int, optional
         Seed of the random numbers: the same seed gives the same run to the bit.

@@ -896,3 +896,29 @@ def test_without_joint_states_there_is_no_trim():
 def test_without_the_angle_of_the_tip_there_is_no_trim():
     running = steadied()
     assert {tick.trim for tick in drifting(running, 20, psi=math.nan)} == {0.0}
+
+
+class Told(Steadying):
+    """Keeps what it is told of the time, and trims nothing."""
+
+    def __init__(self):
+        super().__init__()
+        self.elapsed = []
+
+    def follow(self, theta, theta_desired, x, psi, elapsed):
+        self.elapsed.append(elapsed)
+        return 0.0
+
+
+def test_steadying_is_told_how_long_ago_the_last_reading_was():
+    running = control()
+    running.steadying = told = Told()
+    for k in (0, 1, 3, 4):  # the second period has no reading
+        running.feel(0.0, 10.0 + k * PERIOD)
+        ticks_until(running, 10.0 + k * PERIOD, 10.0 + (k + (k == 1)) * PERIOD)
+    assert told.elapsed == [PERIOD, PERIOD, 2.0 * PERIOD, PERIOD]
+    running.notice_another_command()
+    running.resume()
+    running.feel(0.0, 11.0)
+    running.tick(11.0)
+    assert told.elapsed[-1] == PERIOD  # it begins anew
