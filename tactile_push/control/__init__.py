@@ -12,7 +12,7 @@ from tactile_push.control.joint_rates import (
 from tactile_push.control.joint_servo import JointServo, ServoLimits, ServoStep, servo_values
 from tactile_push.control.law import AHEAD, PushLaw, finger_velocity, motion_angle, push_angle
 from tactile_push.control.limits import Limits, plausible
-from tactile_push.control.push_control import PushControl, Tick
+from tactile_push.control.push_control import PushControl
 from tactile_push.control.servo_states import (
     AWAITING_COMMAND,
     COMMAND_SILENT,
@@ -36,6 +36,7 @@ from tactile_push.control.states import (
     IMPLAUSIBLE_CONTACT,
     INACTIVE,
     NO_REASON,
+    NOTHING_TO_DO,
     PUSHING,
     STATES,
     STOP_REASONS,
@@ -46,7 +47,7 @@ from tactile_push.control.states import (
 )
 from tactile_push.control.steadying import Steadying
 from tactile_push.control.steering import Steering
-from tactile_push.control.tick_state import tick_of, tick_values
+from tactile_push.control.tick_state import Tick, tick_of, tick_values
 
 __all__ = [
     'AHEAD',
@@ -63,6 +64,7 @@ __all__ = [
     'IMPLAUSIBLE_CONTACT',
     'INACTIVE',
     'JOINT_LIMIT',
+    'NOTHING_TO_DO',
     'NO_REASON',
     'PUSHING',
     'SERVO_HELD',

@@ -4,6 +4,8 @@
 
 import math
 
+from tactile_push.control.states import NO_REASON
+
 AHEAD = math.pi / 2.0  # the push angle of a finger at rest: the belt alone pushes
 
 
@@ -126,6 +128,21 @@ class PushLaw:
             )
         self._theta_before = theta
         return self.phi
+
+    def go_on(self) -> None:
+        """Take note of a period without a new reading: the push goes on as it was."""
+
+    def pass_time(self, seconds: float) -> None:
+        """Take note of the time since the last period [s]; law (18) counts readings alone."""
+
+    def tune(self, kp: float, kd: float, theta_desired: float) -> None:
+        """Take gains [rad/rad] and theta_d [rad] that somebody has changed."""
+        self.kp, self.kd, self.theta_desired = kp, kd, theta_desired
+
+    @property
+    def rests(self) -> str:
+        """Why the law does not want to push, one of `STOP_REASONS`; law (18) always does."""
+        return NO_REASON
 
     @property
     def aim(self) -> float:

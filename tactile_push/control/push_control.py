@@ -3,7 +3,6 @@
 """When the law may act on what was felt, and when the finger has to stop."""
 
 import math
-from dataclasses import dataclass
 
 from tactile_push.control.law import PushLaw, finger_velocity, motion_angle
 from tactile_push.control.limits import Limits, plausible
@@ -25,68 +24,7 @@ from tactile_push.control.states import (
 )
 from tactile_push.control.steadying import Steadying
 from tactile_push.control.steering import Steering
-
-
-@dataclass(frozen=True)
-class Tick:
-    """All that one control period used and gave.
-
-    Parameters
-    ----------
-    state : str
-        One of `STATES`.
-    stop_reason : str
-        One of `STOP_REASONS`; `NO_REASON` unless stopped.
-    theta : float
-        Last sensed angle of the edge [rad]; NaN if there is none.
-    phi : float
-        Push angle [rad]; straight ahead while the finger rests.
-    v_x : float or None
-        Commanded finger velocity [m/s]; None before the first contact: whoever moves the finger
-        then, it is not this controller.
-    silence : float
-        Time since the last contact was sensed or, before the first one, since activation or since
-        the clock went back [s].
-    saturated : bool
-        Whether phi is at one of its bounds.
-    limited : bool
-        Whether the law asked for more than the bounds on v_x and its change allow.
-    finger_x : float
-        Last known position of the finger across the belt [m]; NaN if there is none.
-    ticks : int
-        Ticks of the law since activation, this one included.
-    ticks_lost : int
-        Control periods since activation that passed without a tick.
-    elapsed : float
-        Time since the last tick on a clock that cannot be set [s]; NaN if that is not known.
-    finger_age : float
-        Time since the finger was at that position [s]; NaN if there is none.
-    psi : float
-        Angle of the finger tip's pole when the finger was there [rad]; NaN if it is not known.
-    trim : float
-        By how much steadying has moved theta_d [rad].
-    """
-
-    state: str
-    stop_reason: str
-    theta: float
-    phi: float
-    v_x: float | None
-    silence: float
-    saturated: bool
-    limited: bool
-    finger_x: float
-    ticks: int
-    ticks_lost: int
-    elapsed: float
-    finger_age: float
-    psi: float = math.nan
-    trim: float = 0.0
-
-    @property
-    def known_velocity(self) -> float:
-        """Velocity of the finger from then on [m/s]; NaN if somebody else may move it."""
-        return math.nan if self.v_x is None or self.stop_reason == ANOTHER_COMMAND else self.v_x
+from tactile_push.control.tick_state import Tick
 
 
 class PushControl:
@@ -134,6 +72,11 @@ class PushControl:
         self._steadied_at = math.nan  # stamp of the last reading that steadying took [s]
         self.activate(0.0)
         self.state = INACTIVE
+
+    @property
+    def held(self) -> bool:
+        """Whether the finger rests until somebody says to resume."""
+        return self._reason in HELD
 
     def activate(self, now: float) -> None:
         """Start over: no contact yet, no tick yet, no reason to stop.
@@ -288,7 +231,7 @@ class PushControl:
             self._implausible_at = now
         reason = self._reason if self._reason in HELD else self._cause_to_rest(now)
         if self.state == WAITING:
-            if felt:
+            if felt and not self.law.rests:
                 self.state = PUSHING
                 if reason:
                     self._rest(reason)
@@ -309,6 +252,8 @@ class PushControl:
                 self.law.reset()
             self._steady()
             self.law.update(self._contact.value)
+        else:
+            self.law.go_on()
         wanted = finger_velocity(self.law.phi, self.belt_speed)
         bounded = limits.velocity(wanted, self._v_x, self.period)
         self._v_x = limits.inward(bounded, self._finger.value)
@@ -341,6 +286,8 @@ class PushControl:
     def _cause_to_rest(self, now: float) -> str:
         """Find what forbids to push and will be seen to go away."""
         limits = self.limits
+        if self.law.rests:
+            return self.law.rests
         if abs(now - self._implausible_at) <= limits.contact_timeout:
             return IMPLAUSIBLE_CONTACT
         if not abs(now - self._contact.since) <= limits.contact_timeout:
@@ -384,6 +331,7 @@ class PushControl:
         if jumped:
             self.notice_clock_jump(now)
         if passed > 0.0:
+            self.law.pass_time(passed)
             lost = max(0, round(passed / self.period) - 1)
             self._ticks_lost += lost
             if lost > self.limits.max_ticks_lost:

@@ -9,8 +9,8 @@ import math
 from typing import NamedTuple
 
 from tactile_push import paper
-from tactile_push.control.push_control import Tick
 from tactile_push.control.states import PUSHING
+from tactile_push.control.tick_state import Tick
 
 # Over how long the drift is averaged [s]; picked. Long against a control period, whose v_x is
 # mostly noise times kd, and short against the time in which the drift grows by e, 24 s and more.

@@ -16,6 +16,8 @@ FINGER_UNKNOWN = 'finger position unknown'
 TICKS_LOST = 'ticks lost'
 CLOCK_JUMPED = 'clock jumped'
 ANOTHER_COMMAND = 'another command'
+# Nothing is wrong: the law rests until somebody gives it a goal.
+NOTHING_TO_DO = 'nothing to do'
 STOP_REASONS = (
     NO_REASON,
     CONTACT_SILENT,
@@ -25,5 +27,6 @@ STOP_REASONS = (
     TICKS_LOST,
     CLOCK_JUMPED,
     ANOTHER_COMMAND,
+    NOTHING_TO_DO,
 )
 HELD = frozenset({TICKS_LOST, CLOCK_JUMPED, ANOTHER_COMMAND})  # until somebody says to resume

@@ -1,13 +1,92 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""A control period as numbers with names, as it is published and recorded, and back."""
+"""A control period, and the same as numbers with names, as it is published and recorded."""
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from tactile_push.control.law import PushLaw
-from tactile_push.control.push_control import Tick
-from tactile_push.control.states import STATES, STOP_REASONS
+from tactile_push.control.states import ANOTHER_COMMAND, STATES, STOP_REASONS
+
+
+@dataclass(frozen=True)
+class Tick:
+    """All that one control period used and gave.
+
+    Parameters
+    ----------
+    state : str
+        One of `STATES`.
+    stop_reason : str
+        One of `STOP_REASONS`; `NO_REASON` unless stopped.
+    theta : float
+        Last sensed angle of the edge [rad]; NaN if there is none.
+    phi : float
+        Push angle [rad]; straight ahead while the finger rests.
+    v_x : float or None
+        Commanded finger velocity [m/s]; None before the first contact, and before the law has
+        something to do: whoever moves the finger then, it is not this controller.
+    silence : float
+        Time since the last contact was sensed or, before the first one, since activation or since
+        the clock went back [s].
+    saturated : bool
+        Whether phi is at one of its bounds.
+    limited : bool
+        Whether the law asked for more than the bounds on v_x and its change allow.
+    finger_x : float
+        Last known position of the finger across the belt [m]; NaN if there is none.
+    ticks : int
+        Ticks of the law since activation, this one included.
+    ticks_lost : int
+        Control periods since activation that passed without a tick.
+    elapsed : float
+        Time since the last tick on a clock that cannot be set [s]; NaN if that is not known.
+    finger_age : float
+        Time since the finger was at that position [s]; NaN if there is none.
+    psi : float
+        Angle of the finger tip's pole when the finger was there [rad]; NaN if it is not known.
+    trim : float
+        By how much steadying has moved theta_d [rad].
+    """
+
+    state: str
+    stop_reason: str
+    theta: float
+    phi: float
+    v_x: float | None
+    silence: float
+    saturated: bool
+    limited: bool
+    finger_x: float
+    ticks: int
+    ticks_lost: int
+    elapsed: float
+    finger_age: float
+    psi: float = math.nan
+    trim: float = 0.0
+
+    def x_at_reading(self, before: float) -> float:
+        """Return where the finger was at the reading [m]; NaN if the joints do not tell.
+
+        Between joint states and reading, which are never far apart, it followed its command.
+
+        Parameters
+        ----------
+        before : float
+            Velocity of the finger before the tick [m/s]; NaN if it is not known.
+
+        Returns
+        -------
+        float
+            Centre of the disk across the belt [m].
+        """
+        return self.finger_x + before * (self.finger_age - self.silence)
+
+    @property
+    def known_velocity(self) -> float:
+        """Velocity of the finger from then on [m/s]; NaN if somebody else may move it."""
+        return math.nan if self.v_x is None or self.stop_reason == ANOTHER_COMMAND else self.v_x
 
 
 def tick_values(tick: Tick, law: PushLaw) -> dict[str, float]:

@@ -7,7 +7,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from tactile_push.control import INACTIVE, STATES, STOP_REASONS, STOPPED, WAITING
+from tactile_push.control import (
+    INACTIVE,
+    NOTHING_TO_DO,
+    STATES,
+    STOP_REASONS,
+    STOPPED,
+    WAITING,
+)
 from tactile_push.estimation import CONTRADICTIONS
 from tactile_push.report.data import ERROR, NOTE, WARNING
 from tactile_push.report.episodes import Label
@@ -32,7 +39,8 @@ def doing(state: npt.ArrayLike, reason: npt.ArrayLike) -> npt.NDArray[np.float64
 def stop_label(state: float, reason: float) -> Label | None:
     """Return what is to be said of what the controller does."""
     if 0.0 < reason < len(STOP_REASONS):
-        return ERROR, f'{STOPPED}: {STOP_REASONS[int(reason)]}'
+        words = STOP_REASONS[int(reason)]
+        return NOTE if words == NOTHING_TO_DO else ERROR, f'{STOPPED}: {words}'
     if 0.0 <= state < len(STATES) and STATES[int(state)] in (INACTIVE, WAITING):
         return NOTE, STATES[int(state)]
     return None

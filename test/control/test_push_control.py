@@ -18,6 +18,7 @@ from tactile_push.control import (
     IMPLAUSIBLE_CONTACT,
     INACTIVE,
     NO_REASON,
+    NOTHING_TO_DO,
     PUSHING,
     STATES,
     STOP_REASONS,
@@ -70,7 +71,7 @@ def test_the_states_are_named_for_people():
     assert STATES == (INACTIVE, WAITING, PUSHING, STOPPED)
     assert len(set(STATES)) == 4
     assert STOP_REASONS[0] == NO_REASON == ''
-    assert len(set(STOP_REASONS)) == 8
+    assert len(set(STOP_REASONS)) == 9
     assert set(STOP_REASONS) > HELD == {TICKS_LOST, CLOCK_JUMPED, ANOTHER_COMMAND}
 
 
@@ -922,3 +923,89 @@ def test_steadying_is_told_how_long_ago_the_last_reading_was():
     running.feel(0.0, 11.0)
     running.tick(11.0)
     assert told.elapsed[-1] == PERIOD  # it begins anew
+
+
+class Idle(PushLaw):
+    """A law that pushes when it is told to, and notes what it is told of time."""
+
+    def __init__(self):
+        super().__init__(0.5, 0.0, 0.0)
+        self.idle = True
+        self.passed, self.periods_without = [], 0
+
+    @property
+    def rests(self):
+        return NOTHING_TO_DO if self.idle else NO_REASON
+
+    def pass_time(self, seconds):
+        self.passed.append(seconds)
+
+    def go_on(self):
+        self.periods_without += 1
+
+
+def idling(now=10.0):
+    running = PushControl(Idle(), 0.005, PERIOD, Limits(contact_timeout=TIMEOUT))
+    running.activate(now)
+    return running
+
+
+def felt_at(running, *times):
+    """Feel a contact at each time and tick; return the last tick."""
+    for now in times:
+        running.feel(0.1, now)
+        tick = running.tick(now)
+    return tick
+
+
+def test_a_law_with_nothing_to_do_moves_nobody_s_finger():
+    running = idling()
+    tick = felt_at(running, 10.0, 10.125)
+    assert (tick.state, tick.stop_reason, tick.v_x) == (WAITING, NO_REASON, None)
+    running.law.idle = False
+    assert felt_at(running, 10.25).state == PUSHING
+
+
+def test_a_law_that_is_done_rests_for_a_reason_of_its_own_until_it_has_something_to_do():
+    running = idling()
+    running.law.idle = False
+    assert felt_at(running, 10.0, 10.125, 10.25).v_x != 0.0
+    running.law.idle = True
+    tick = felt_at(running, 10.375)
+    assert (tick.state, tick.stop_reason, tick.v_x) == (STOPPED, NOTHING_TO_DO, 0.0)
+    # Nor does it matter then that nothing is felt any more.
+    assert ticks_until(running, 10.5, 11.0).stop_reason == NOTHING_TO_DO
+    assert not running.resume()
+    running.law.idle = False
+    tick = felt_at(running, 11.125)
+    assert (tick.state, tick.stop_reason, tick.phi) == (PUSHING, NO_REASON, AHEAD)
+
+
+def test_a_stop_that_waits_for_somebody_comes_before_a_law_that_rests():
+    running = idling()
+    running.law.idle = False
+    felt_at(running, 10.0)
+    running.notice_another_command()
+    assert running.held
+    running.law.idle = True
+    assert felt_at(running, 10.125).stop_reason == ANOTHER_COMMAND
+    assert running.resume()
+    assert felt_at(running, 10.25).stop_reason == NOTHING_TO_DO
+    assert not running.held
+
+
+def test_the_law_knows_the_time_between_ticks_and_which_had_no_new_contact():
+    running = idling()
+    running.law.idle = False
+    felt_at(running, 10.0, 10.125)
+    running.tick(10.25)
+    running.tick(10.5, 0.25)
+    assert running.law.passed == [PERIOD, PERIOD, 0.25]
+    assert running.law.periods_without == 1  # the last one comes too late for the contact
+
+
+def test_a_clock_that_was_set_back_is_no_time():
+    running = idling()
+    felt_at(running, 10.0)
+    running.tick(5.0)
+    assert running.law.passed == []

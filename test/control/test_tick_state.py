@@ -57,6 +57,13 @@ def test_every_number_stands_under_its_name():
     }
 
 
+def test_between_joint_states_and_reading_the_finger_followed_its_command():
+    # The joints were read 30 ms before the reading.
+    tick = replace(TICK, finger_age=0.05, silence=0.02)
+    assert tick.x_at_reading(0.01) == pytest.approx(-0.03 + 0.03 * 0.01)
+    assert math.isnan(tick.x_at_reading(math.nan))
+
+
 def test_the_desired_angle_is_told_as_the_law_used_it():
     law = PushLaw(0.05, 5.0, -0.17)
     law.trim = 0.02
@@ -109,7 +116,7 @@ def test_a_missing_number_is_refused_by_name(name):
         ('state', -1.0),
         ('state', math.nan),
         ('state', math.inf),
-        ('stop_reason', 8.0),
+        ('stop_reason', 9.0),
         ('stop_reason', -0.5),
         ('ticks', math.nan),
         ('ticks_lost', math.inf),

@@ -37,6 +37,8 @@ def test_a_stop_is_an_error_waiting_a_note_and_pushing_nothing():
     assert stop_label(3.0, 1.0) == ('error', 'stopped: contact silent')
     assert stop_label(STATES.index('waiting for contact'), 0.0) == ('note', 'waiting for contact')
     assert stop_label(STATES.index('pushing'), 0.0) is None
+    done = STOP_REASONS.index('nothing to do')
+    assert stop_label(3.0, done) == ('note', 'stopped: nothing to do')
 
 
 def test_bounds_are_notes():
