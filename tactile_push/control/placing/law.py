@@ -3,14 +3,29 @@
 """The law that places: it learns where the contact is, plans, and says when to let go."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from tactile_push.control.law import AHEAD, PushLaw, finger_velocity, motion_angle
+from tactile_push.control.placing.arcs import UNKNOWNS, rest_of
 from tactile_push.control.placing.learning import Spread, telling_command
-from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation, follow
+from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation
+from tactile_push.control.placing.past import Past
 from tactile_push.control.placing.planner import Plan, Planner
+from tactile_push.control.placing.reachability import Task
+from tactile_push.control.placing.stages import (
+    LEARNING,
+    LETTING_GO,
+    MISSED,
+    NO_GOAL,
+    PLACING,
+    RELEASED,
+)
+from tactile_push.control.states import NO_REASON, NOTHING_TO_DO
 
-LEARNING, PLACING, RELEASED, MISSED = 'learning', 'placing', 'released', 'missed'
+NOWHERE = Goal(math.nan, math.nan)  # no goal
+ACTING = (LEARNING, PLACING, LETTING_GO)
 KNOWN = 1e-3  # standard deviation of d below which the law commits itself [m]
 LEARNED_SHARE = 0.08  # of the belt, after which it does so anyhow; picked
 D_MARGIN, SPREADS = 2e-3, 1.0  # kept from the edge's ends [m], and deviations of d beside it
@@ -41,13 +56,15 @@ class PlaceLaw(PushLaw):
     Parameters
     ----------
     goal : Goal
-        Where to let go.
+        Where to let go; `NOWHERE` to wait for a goal.
     belt : float
-        Belt that there is [m].
+        Belt that there is for a goal [m].
     belt_speed, period : float
         Speed of the belt [m/s] and control period [s].
     lag : float, optional
         Time constant with which the finger follows [s].
+    delay : float, optional
+        Time from the word to let go until the object is free [s].
     workspace : tuple of float, optional
         Least and greatest x of the finger's disk [m].
     rate : float, optional
@@ -58,9 +75,10 @@ class PlaceLaw(PushLaw):
     Attributes
     ----------
     stage : str
-        `LEARNING`, `PLACING`, `RELEASED`, or `MISSED` when the belt is over.
-    let_go_in : float
-        When to let go, after the last update [s]; NaN if not within the period.
+        One of `stages.STAGES`: `LEARNING`, `PLACING`, `LETTING_GO`, and how it ended.
+    let_go_in, tell_in : float
+        When the object is free, and when to say so that it is, after the last update [s]; NaN if
+        not within the period.
     plan : Plan or None
         The newest one.
     """
@@ -73,89 +91,186 @@ class PlaceLaw(PushLaw):
         period: float,
         *,
         lag: float = 0.0,
+        delay: float = 0.0,
         workspace: tuple[float, float] = (-0.105, 0.105),
         rate: float = 0.05,
         phi_min: float = math.radians(33.0),
         phi_max: float = math.radians(147.0),
     ) -> None:
         super().__init__(0.0, 0.0, goal.theta, phi_min, phi_max)
-        self.goal = goal
         self.belt = belt
-        self._period, self._belt_speed = period, belt_speed
+        self._belt_speed = belt_speed
         self._piece = period * belt_speed
-        self._lag = lag * belt_speed
+        self._lag, self._delay = lag * belt_speed, delay * belt_speed
         steepest = min(1.0 / math.tan(phi_min), -1.0 / math.tan(phi_max))
         self._bounds = Bounds(
             *(steepest, rate / belt_speed**2, workspace[0] + X_MARGIN, workspace[1] - X_MARGIN),
             *(-math.inf, math.inf, LARGEST_ANGLE),
         )
         self._planner = Planner(self._bounds)
+        self._past = Past(self._lag)
         self._belief: Belief | None = None
-        self._u = 0.0
-        self.used = 0.0  #: belt since the first reading [m]
-        self.stage = LEARNING
-        self.let_go_in = math.nan
+        self._believed_at = 0.0  # on the belt's way [m]
+        self.aim_at(goal)
+
+    def aim_at(self, goal: Goal) -> None:
+        """Take another goal, for which there is all the belt; what is believed stays."""
+        self.goal = goal
+        self.theta_desired = goal.theta
+        self.began = False  #: whether there was a reading since
+        self.used = 0.0  #: belt since then [m]
+        self.stage = NO_GOAL if math.isnan(goal.x) else LEARNING
+        self.let_go_in = self.tell_in = math.nan
         self.plan: Plan | None = None
+        self._planned_at = math.nan  # on the belt's way [m]
+        self._free_at = math.inf  # where the object is let go, on the belt's way [m]
         self._aim = math.nan
+        self._planner.forget()
+
+    def end(self, stage: str) -> None:
+        """Do no more for the goal, of which this became."""
+        self.stage = stage
+        self.let_go_in = self.tell_in = math.nan
+        self._planner.forget()
+
+    def told(self) -> None:
+        """Take note that the word to let go was given."""
+        self.tell_in = math.nan
+
+    def take_back(self) -> None:
+        """Take note that the object was not let go when the law said so."""
+        self.stage = PLACING
+        self.let_go_in = self.tell_in = math.nan
+
+    @property
+    def rests(self) -> str:
+        """Why the law does not want to push: it has no goal, or that has come to an end."""
+        return NO_REASON if self.stage in ACTING else NOTHING_TO_DO
 
     def reset(self, phi: float = AHEAD) -> None:
         """Forget the last reading and what was believed, as when the finger has stopped."""
         super().reset(phi)
         self._belief = None
-        self._u = 0.0
         self._planner.forget()
 
-    def believe(self, belief: Belief | None) -> None:
-        """Take what is believed at the last update's reading; None if nothing is."""
+    def tune(self, kp: float, kd: float, theta_desired: float) -> None:
+        """Ignore the gains of law (18) and its angle: this law has a goal."""
+
+    def believe(self, belief: Belief | None, age: float = 0.0) -> None:
+        """Take what is believed; None if nothing is.
+
+        Parameters
+        ----------
+        belief : Belief or None
+            What is believed at a reading.
+        age : float, optional
+            How long before the last update the reading was taken [s].
+        """
         self._belief = belief
+        self._believed_at = self._past.way - age * self._belt_speed
+
+    def pass_time(self, seconds: float) -> None:
+        """Take note of the time since the last period [s], in which phi was in force."""
+        way = seconds * self._belt_speed
+        self._past.add(finger_velocity(self.phi, 1.0), way)
+        if self.stage == LETTING_GO and self._past.way >= self._free_at:
+            self.end(RELEASED)
+        if self.began and self.stage in (LEARNING, PLACING):
+            self.used += way
+            if self.used >= self.belt:
+                self.end(MISSED)
 
     def update(self, theta: float) -> float:
         """Give the push angle of the next period, as in `PushLaw`."""
-        first = self._theta_before is None
+        self.began = True
         self._theta_before = theta
-        self.let_go_in = math.nan
-        if first or self._belief is None or self.stage in (RELEASED, MISSED):
+        self._act(theta)
+        return self.phi
+
+    def go_on(self) -> None:
+        """Plan from older readings in a period without a new one."""
+        if self._theta_before is not None:
+            self._act(self._theta_before)
+
+    def present(self) -> tuple[Situation, Belief] | None:
+        """Return where finger and object are now by what is believed; None if nothing is."""
+        belief = self._belief
+        if belief is None:
+            return None
+        belief = replace(belief, pushed=belief.pushed._replace(lag=self._lag))
+        where = belief.x, belief.theta, belief.d
+        return self._past.present(*where, self._believed_at, belief.pushed), belief
+
+    def task(self) -> Task | None:
+        """Return from where the goal has to be reached; None if nothing is believed."""
+        present = self.present()
+        if present is None:
+            return None
+        now, belief = present
+        bounds = self._bounds._replace(d_min=belief.ends[0], d_max=belief.ends[1])
+        return Task(now, belief.pushed, bounds, max(self.belt - self.used, 0.0))
+
+    def _act(self, theta: float) -> None:
+        """Choose the push angle."""
+        self.let_go_in = self.tell_in = math.nan
+        if self.stage == LETTING_GO:
+            self.phi = motion_angle(self._finish(), 1.0)
+            return
+        present = None if self.rests else self.present()
+        if present is None:
             self.phi = AHEAD
-            return self.phi
+            return
+        now, belief = present
         if math.isnan(self._aim):
             self._aim = theta
-        command = finger_velocity(self.phi, 1.0)
-        belief = self._belief
-        pushed = belief.pushed._replace(lag=self._lag)
-        then = Situation(belief.x, belief.theta, belief.d, self._u, command)
-        now = follow(then, command, self._piece, pushed)
-        self._u = now.u
-        self.used += self._piece
-        left = self.belt - self.used
         margin = D_MARGIN + SPREADS * min(belief.spread.d, KNOWN)
         bounds = self._bounds._replace(d_min=belief.ends[0] + margin, d_max=belief.ends[1] - margin)
         known = belief.spread.d <= KNOWN or self.used > LEARNED_SHARE * self.belt
         if self.stage == LEARNING and known:
             self.stage = PLACING
         if self.stage == LEARNING:
-            u = telling_command(now, pushed, bounds, belief.spread, self._aim)
+            u = telling_command(now, belief.pushed, bounds, belief.spread, self._aim)
         else:
-            u = self._place(now, pushed, bounds, left)
+            u = self._place(now, belief.pushed, bounds, self.belt - self.used)
         self.phi = motion_angle(u, 1.0)
-        return self.phi
 
     def _place(self, now: Situation, pushed: Pushed, bounds: Bounds, left: float) -> float:
         """Plan anew and return the command of the next period."""
-        most = max(left, 0.0)
-        self.plan = self._planner.plan(now, pushed, self.goal, most, way=self._piece, bounds=bounds)
-        if self.plan is not None and self.plan.length < self._piece and not self.plan.near:
+        most, last = max(left, 0.0), self._piece + self._delay
+        way = 0.0 if math.isnan(self._planned_at) else self._past.way - self._planned_at
+        self._planned_at = self._past.way
+        self.plan = self._planner.plan(now, pushed, self.goal, most, way=way, bounds=bounds)
+        if self.plan is not None and self.plan.length < last and not self.plan.near:
             self._planner.forget()
             least = min(DETOUR, most)
             self.plan = self._planner.plan(now, pushed, self.goal, most, least=least, bounds=bounds)
         plan = self.plan
-        ends = plan is not None and plan.near and plan.length < self._piece
+        ends = plan is not None and plan.near and plan.length < last
         if plan is not None and ends:
-            self.stage = RELEASED
-            self.let_go_in = plan.length / self._belt_speed
+            self.tell_in = max(plan.length - self._delay, 0.0) / self._belt_speed
+            self._let_go(plan)
         elif left <= self._piece:
             self.stage = MISSED
-        if plan is None or (plan.length < self._piece and not ends):
+        if plan is None or (plan.length < last and not ends):
             # Translating keeps what can be reached for the longest.
             ahead = -math.tan(now.theta + math.atan2(now.d, pushed.l))
             return min(max(ahead, -bounds.steepest), bounds.steepest)
         return plan.command(self._piece)
+
+    def _let_go(self, plan: Plan) -> None:
+        """Let go at the end of a plan."""
+        self.stage = LETTING_GO
+        self._free_at = self._past.way + plan.length
+        if plan.length < self._piece:
+            self.stage = RELEASED
+            self.let_go_in = plan.length / self._belt_speed
+
+    def _finish(self) -> float:
+        """Return the command of the rest of the last plan, which nothing changes any more."""
+        assert self.plan is not None
+        rest = np.empty(UNKNOWNS)
+        rest_of(self.plan.push, self._past.way - self._planned_at, rest)
+        self._planned_at = self._past.way
+        self.plan = replace(self.plan, push=rest)
+        self._let_go(self.plan)
+        return self.plan.command(self._piece)

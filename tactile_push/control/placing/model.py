@@ -12,6 +12,9 @@ from typing import NamedTuple
 from tactile_push.mechanics.compiled import compiled, equation
 from tactile_push.mechanics.resistance import Pressure, settled
 
+LONGEST_STEP = 5e-4  # of `follow` [m]: the belt's way in a control period of the paper
+ROUNDING = 1e-6  # of a number of steps
+
 
 class Pushed(NamedTuple):
     """The object and the finger that pushes it."""
@@ -120,7 +123,7 @@ def outside(now: Situation, bounds: Bounds) -> tuple[float, float, float]:
 @compiled
 def follow(now: Situation, command: float, way: float, pushed: Pushed) -> Situation:
     """Move by a piece of belt under one command, as long as one likes."""
-    count = max(1, math.ceil(way / 5e-4))
+    count = max(1, math.ceil(way / LONGEST_STEP - ROUNDING))
     for _ in range(count):
         now, pushes = step(now, command, way / count, pushed)
         if not pushes:

@@ -3,15 +3,24 @@
 """Whether a goal can be reached, and if not, why and which one is nearest."""
 
 import math
+from collections.abc import Generator
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation
 from tactile_push.control.placing.planner import Plan, new_plan
+from tactile_push.control.placing.stages import (
+    AT_THE_LIMITS,
+    BELT,
+    CONTACT,
+    EDGE,
+    FRICTION,
+    OUT_OF_REACH,
+    WITH_RESERVE,
+    WORKSPACE,
+)
 
-WITH_RESERVE, AT_THE_LIMITS, OUT_OF_REACH = 'with reserve', 'at the limits', 'out of reach'
-# What forbids a goal, which can be reached as soon as this one is no limit; the first of several.
-# `CONTACT`: from where the finger touches, sticking and slipping do not lead there.
-FRICTION, EDGE, WORKSPACE, BELT, CONTACT = 'friction', 'edge', 'workspace', 'belt', 'contact'
+T = TypeVar('T')
 # What is spared for a reserve: shares of cot(phi) and of the belt, ends of edge and workspace [m],
 # theta [rad].
 STEEPNESS_SPARED, BELT_SPARED, SPARED, THETA_SPARED = 0.15, 0.2, 3e-3, math.radians(5.0)
@@ -49,6 +58,26 @@ class Task:
         return plan is not None and plan.arrives
 
 
+def at_once(plans: Generator[None, None, T]) -> T:
+    """Return the result of a generator that pauses after each plan.
+
+    Parameters
+    ----------
+    plans : generator
+        Such as `judging` returns.
+
+    Returns
+    -------
+    object
+        What it returns in the end.
+    """
+    while True:
+        try:
+            next(plans)
+        except StopIteration as end:
+            return end.value
+
+
 def reach(task: Task, goal: Goal) -> Reach:
     """Find out whether a goal can be reached.
 
@@ -64,10 +93,34 @@ def reach(task: Task, goal: Goal) -> Reach:
     Reach
         Whether, and what forbids it.
     """
+    return at_once(judging(task, goal))
+
+
+def judging(task: Task, goal: Goal) -> Generator[None, None, Reach]:
+    """Find out the same, for who has no time for all the plans at once.
+
+    Parameters
+    ----------
+    task, goal : Task, Goal
+        As for `reach`.
+
+    Yields
+    ------
+    None
+        After each plan.
+
+    Returns
+    -------
+    Reach
+        As `reach` does.
+    """
     plan = task.plan(goal)
+    yield
     if plan is None or not plan.arrives:
-        return Reach(OUT_OF_REACH, _reason(task, goal), plan)
+        reason = yield from _reason(task, goal)
+        return Reach(OUT_OF_REACH, reason, plan)
     spared = with_reserve(task).plan(goal)
+    yield
     if spared is not None and spared.arrives:
         return Reach(WITH_RESERVE, '', spared)
     return Reach(AT_THE_LIMITS, '', plan)
@@ -90,7 +143,7 @@ def with_reserve(task: Task) -> Task:
     )
 
 
-def _reason(task: Task, goal: Goal) -> str:
+def _reason(task: Task, goal: Goal) -> Generator[None, None, str]:
     bounds, pushed = task.bounds, task.pushed
     without = {
         WORKSPACE: replace(task, bounds=bounds._replace(x_min=-FAR, x_max=FAR)),
@@ -98,7 +151,12 @@ def _reason(task: Task, goal: Goal) -> str:
         FRICTION: replace(task, pushed=pushed._replace(cos_alpha=0.0, sin_alpha=1.0)),
         BELT: replace(task, belt=max(4.0 * task.belt, 0.5)),
     }
-    return next((reason for reason, other in without.items() if other.arrives(goal)), CONTACT)
+    for reason, other in without.items():
+        arrives = other.arrives(goal)
+        yield
+        if arrives:
+            return reason
+    return CONTACT
 
 
 def nearest_goal(task: Task, goal: Goal) -> Goal | None:
@@ -116,6 +174,27 @@ def nearest_goal(task: Task, goal: Goal) -> Goal | None:
     Goal or None
         The nearest one found; None if there is none within 64 mm or degrees.
     """
+    return at_once(nearing(task, goal))
+
+
+def nearing(task: Task, goal: Goal) -> Generator[None, None, Goal | None]:
+    """Find the same, for who has no time for all the plans at once.
+
+    Parameters
+    ----------
+    task, goal : Task, Goal
+        As for `nearest_goal`.
+
+    Yields
+    ------
+    None
+        After each plan.
+
+    Returns
+    -------
+    Goal or None
+        As `nearest_goal` does.
+    """
 
     def at(radius: float, direction: float) -> Goal:
         return Goal(
@@ -123,17 +202,23 @@ def nearest_goal(task: Task, goal: Goal) -> Goal | None:
             goal.theta + math.radians(radius) * math.sin(direction),
         )
 
-    if task.arrives(goal):
+    arrives = task.arrives(goal)
+    yield
+    if arrives:
         return goal
     nearer = 0.0
     for radius in RADII:
         for k in range(DIRECTIONS):
             direction = 2.0 * math.pi * k / DIRECTIONS
-            if not task.arrives(at(radius, direction)):
+            arrives = task.arrives(at(radius, direction))
+            yield
+            if not arrives:
                 continue
             for _ in range(HALVINGS):
                 middle = (nearer + radius) / 2.0
-                if task.arrives(at(middle, direction)):
+                arrives = task.arrives(at(middle, direction))
+                yield
+                if arrives:
                     radius = middle
                 else:
                     nearer = middle

@@ -6,16 +6,19 @@ import math
 import numpy as np
 import pytest
 
-from tactile_push.control.placing.law import (
-    LEARNING,
-    MISSED,
-    PLACING,
-    RELEASED,
-    Belief,
-    PlaceLaw,
-)
+from tactile_push.control import NO_REASON, NOTHING_TO_DO
+from tactile_push.control.placing.law import NOWHERE, Belief, PlaceLaw
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Goal, Pushed, Situation, centre_of_mass, follow
+from tactile_push.control.placing.stages import (
+    CANCELLED,
+    LEARNING,
+    LETTING_GO,
+    MISSED,
+    NO_GOAL,
+    PLACING,
+    RELEASED,
+)
 from tactile_push.mechanics import friction_cone
 from tactile_push.mechanics.resistance import Pressure
 
@@ -29,8 +32,8 @@ ENDS = (-0.025, 0.025)
 GOAL, START = Goal(-0.02, 0.0), Situation(0.0, 0.2, 0.003, 0.0, 0.0)
 
 
-def law(goal=GOAL, belt=0.3):
-    return PlaceLaw(goal, belt, BELT_SPEED, PERIOD)
+def law(goal=GOAL, belt=0.3, **how):
+    return PlaceLaw(goal, belt, BELT_SPEED, PERIOD, **how)
 
 
 def belief(now, d_spread=1e-4):
@@ -38,13 +41,23 @@ def belief(now, d_spread=1e-4):
     return Belief(now.x, now.theta, now.d, PUSHED, ENDS, spread)
 
 
-def driven(one, d_spread=1e-4, now=START, periods=600):
-    """Let a law push an object that is what it believes it to be; return where it ends."""
-    before = None
-    for _ in range(periods):
+def driven(one, d_spread=1e-4, now=START, periods=600, known_every=1, felt_every=1):
+    """Let a law push an object that is what it believes it to be; return where it ends.
+
+    What is believed may be known, and the object felt, in some periods only.
+    """
+    before, known_at = None, 0
+    for k in range(periods):
         if before is not None:
-            one.believe(belief(before, d_spread))
-        phi = one.update(now.theta)
+            if (k - 1) % known_every == 0:
+                known, known_at = before, k - 1
+            one.believe(belief(known, d_spread), (k - 1 - known_at) * PERIOD)
+            one.pass_time(PERIOD)
+        if k % felt_every:
+            one.go_on()
+        else:
+            one.update(now.theta)
+        phi = one.phi
         assert one.phi_min <= phi <= one.phi_max
         before, way = now, PIECE
         if one.stage == RELEASED:
@@ -98,6 +111,115 @@ def test_after_a_stop_it_believes_nothing_and_remembers_the_belt():
     driven(one, periods=10)
     used = one.used
     one.reset()
+    assert one.present() is None
     assert one.update(0.1) == AHEAD
     assert one.update(0.1) == AHEAD
     assert one.used == used > 0.0
+
+
+@pytest.mark.parametrize('rare', [{'known_every': 3}, {'felt_every': 3}])
+def test_it_plans_from_what_was_known_some_periods_ago(rare):
+    one = law()
+    end = driven(one, **rare)
+    assert one.stage == RELEASED
+    assert centre_of_mass(end, PUSHED) == pytest.approx(-0.02, abs=2e-4)
+    assert end.theta == pytest.approx(0.0, abs=math.radians(0.2))
+
+
+def test_the_belt_runs_out_while_the_finger_rests_too():
+    one = law(belt=0.05)
+    driven(one, periods=10)
+    for _ in range(100):
+        one.reset()
+        one.pass_time(PERIOD)
+    assert one.stage == MISSED
+    assert one.rests == NOTHING_TO_DO
+
+
+def test_without_a_goal_it_has_nothing_to_do_until_it_gets_one():
+    one = law(NOWHERE)
+    assert (one.stage, one.rests) == (NO_GOAL, NOTHING_TO_DO)
+    one.aim_at(GOAL)
+    assert (one.stage, one.rests, one.theta_desired) == (LEARNING, NO_REASON, 0.0)
+
+
+def test_a_new_goal_has_all_the_belt_and_what_is_believed():
+    one = law()
+    driven(one, periods=30)
+    assert one.used > 0.01
+    one.aim_at(Goal(-0.01, 0.1))
+    assert (one.used, one.stage, one.began) == (0.0, LEARNING, False)
+    one.update(0.1)
+    one.pass_time(PERIOD)
+    one.update(0.1)
+    assert one.stage == PLACING
+    assert one.used == pytest.approx(PIECE)
+
+
+def test_a_goal_that_has_ended_is_not_pushed_for():
+    one = law()
+    driven(one, periods=30)
+    one.end(CANCELLED)
+    one.pass_time(PERIOD)
+    assert one.update(0.1) == AHEAD
+    assert one.rests == NOTHING_TO_DO
+
+
+def test_what_was_not_let_go_is_placed_again():
+    one = law()
+    driven(one)
+    assert one.stage == RELEASED
+    one.take_back()
+    assert (one.stage, one.rests) == (PLACING, NO_REASON)
+    assert math.isnan(one.let_go_in)
+
+
+def test_the_gains_of_the_other_law_are_not_its_own():
+    one = law()
+    one.tune(1.0, 2.0, 0.3)
+    assert (one.kp, one.kd, one.theta_desired) == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize('delay', [0.05, 0.24])
+def test_a_slow_lift_is_told_earlier_and_the_object_is_there_when_it_is_free(delay):
+    one, now, before, told, t = law(delay=delay), START, None, math.nan, 0.0
+    while one.stage != RELEASED:
+        if before is not None:
+            one.believe(belief(before))
+            one.pass_time(PERIOD)
+        one.update(now.theta)
+        if math.isfinite(one.tell_in):
+            assert math.isnan(told)
+            told = t + one.tell_in
+        way = PIECE
+        if one.stage == RELEASED:
+            way = one.let_go_in * BELT_SPEED
+        before, now = now, follow(now, 1.0 / math.tan(one.phi), way, PUSHED)
+        t += way / BELT_SPEED
+        assert one.stage != LETTING_GO or not one.rests
+    assert t - told == pytest.approx(delay, abs=1e-9)
+    assert centre_of_mass(now, PUSHED) == pytest.approx(-0.02, abs=2e-4)
+    assert now.theta == pytest.approx(0.0, abs=math.radians(0.2))
+
+
+def test_an_object_whose_lift_has_begun_is_let_go_whatever_is_felt():
+    one, now, before = law(delay=0.5), START, None
+    while one.stage != LETTING_GO:
+        if before is not None:
+            one.believe(belief(before))
+            one.pass_time(PERIOD)
+        one.update(now.theta)
+        before, now = now, follow(now, 1.0 / math.tan(one.phi), PIECE, PUSHED)
+    for _ in range(8):
+        one.reset()
+        one.pass_time(PERIOD)
+    assert one.stage == RELEASED
+
+
+def test_the_task_is_what_is_left_of_it():
+    one = law()
+    assert one.task() is None
+    driven(one, periods=40)
+    task = one.task()
+    assert task.belt == pytest.approx(0.3 - one.used)
+    assert (task.bounds.d_min, task.bounds.d_max) == ENDS

@@ -8,15 +8,19 @@ import pytest
 
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation, centre_of_mass
 from tactile_push.control.placing.reachability import (
+    Task,
+    judging,
+    nearest_goal,
+    nearing,
+    reach,
+)
+from tactile_push.control.placing.stages import (
     AT_THE_LIMITS,
     BELT,
     FRICTION,
     OUT_OF_REACH,
     WITH_RESERVE,
     WORKSPACE,
-    Task,
-    nearest_goal,
-    reach,
 )
 from tactile_push.mechanics import friction_cone
 from tactile_push.mechanics.resistance import Pressure
@@ -73,3 +77,12 @@ def test_the_nearest_goal_can_be_reached(goal):
 
 def test_the_nearest_goal_to_one_in_reach_is_itself():
     assert nearest_goal(task(), Goal(-0.01, 0.0)) == Goal(-0.01, 0.0)
+
+
+@pytest.mark.parametrize('looking', [judging, nearing])
+def test_a_look_pauses_after_each_plan(looking, monkeypatch):
+    plans = []
+    monkeypatch.setattr(Task, 'plan', lambda self, goal: plans.append(goal))  # and none is found
+    for pauses, _ in enumerate(looking(task(), Goal(0.0, 0.0)), 1):
+        assert len(plans) == pauses
+    assert len(plans) == pauses > 4
