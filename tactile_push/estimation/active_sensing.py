@@ -117,6 +117,11 @@ class ActiveSensing:
         self.age = math.nan
         self.blind = ''
 
+    @property
+    def noise(self) -> float:
+        """Standard deviation of the readings of theta that the estimator expects [rad]."""
+        return self._estimator.noise
+
     def tick(
         self,
         stamp: float,

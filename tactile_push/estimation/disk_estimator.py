@@ -70,7 +70,7 @@ class DiskEstimator(Estimator):
             outlier=outlier,
             disk=True,
         )
-        super().__init__(Contenders([estimator], np.ones(1), noise))
+        super().__init__(Contenders([estimator], np.ones(1), noise), noise)
 
     def estimate(self) -> ObjectEstimate:
         """Return what is known, as in `Estimator`.

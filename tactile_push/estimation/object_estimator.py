@@ -49,8 +49,9 @@ class ObjectEstimate:
 class Estimator:
     """What the estimators of an edge and of a disk have in common."""
 
-    def __init__(self, contenders: Contenders) -> None:
+    def __init__(self, contenders: Contenders, noise: float) -> None:
         self._contenders = contenders
+        self.noise = noise  # standard deviation of the readings of theta [rad]
 
     def reset(self) -> None:
         """Forget everything, as when the finger has lost the object."""
@@ -169,7 +170,7 @@ class ObjectEstimator(Estimator):
             )
             for place in places
         ]
-        super().__init__(Contenders(estimators, together / together.sum(), noise))
+        super().__init__(Contenders(estimators, together / together.sum(), noise), noise)
 
     def estimate(self) -> ObjectEstimate:
         """Return what is known, as in `Estimator`.

@@ -1,47 +1,61 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""From what is known of an object to what the law that places believes."""
+"""From the numbers of `active_sensing/state` to what the law that places believes."""
 
 import math
+from collections.abc import Mapping
+
+import numpy as np
 
 from tactile_push.control.placing.law import Belief
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Pushed
-from tactile_push.estimation import ObjectEstimate
 from tactile_push.mechanics import friction_cone
+from tactile_push.mechanics.resistance import Pressure
 
 NARROWEST = 1e-5  # standard deviation of d [m]; with 0 nothing could be learned
+NEEDED = (  # finite; mu_c besides, which may be infinite
+    *('theta', 'd', 'theta_deviation', 'd_deviation', 'log_c_deviation', 'l', 'radius'),
+    *('c_squared', 'growth', 'shape', 'tilt', 'moment_along', 'moment_mixed', 'moment_across'),
+    *('edge_start', 'edge_end', 'noise'),
+)
 
 
 def belief_of(
-    estimate: ObjectEstimate, x: float, turning: float, noise: float, reading: float
-) -> Belief:
+    values: Mapping[str, float], x: float, turning: float, reading: float
+) -> Belief | None:
     """Return what is believed at a reading: the means under the most likely edge.
 
     Parameters
     ----------
-    estimate : ObjectEstimate
-        Of an object with edges, without a contradiction.
+    values : mapping of str to float
+        Numbers of `active_sensing/state` by name.
     x, turning : float
         Centre of the finger's disk across the belt [m], and by how much the tip turns there for
         each metre [rad/m].
-    noise, reading : float
-        Standard deviation of the readings of theta [rad], and the belt between two of them [m].
+    reading : float
+        Belt between two readings [m].
 
     Returns
     -------
-    Belief
-        What is believed.
+    Belief or None
+        What is believed; None if anything that it takes is not known.
     """
-    known, edge = estimate.estimates[estimate.edge], estimate.edges[estimate.edge]
-    cos_alpha, sin_alpha = friction_cone(known.mu_c.mean)
-    pushed = Pushed(known.l, known.radius, known.pressure, cos_alpha, sin_alpha, turning, 0.0)
-    theta_variance, d_variance = known.covariance[0, 0], known.covariance[1, 1]
+    numbers = [*(values.get(name, math.nan) for name in NEEDED), x, turning]
+    if not (all(map(math.isfinite, numbers)) and values.get('mu_c', math.nan) >= 0.0):
+        return None
+    cos_alpha, sin_alpha = friction_cone(values['mu_c'])
+    moments = np.array([values[f'moment_{way}'] for way in ('along', 'mixed', 'across')])
+    pressure = Pressure(
+        *(values['c_squared'], values['growth'], values['shape'], moments, values['tilt'])
+    )
+    pushed = Pushed(*(values['l'], values['radius'], pressure, cos_alpha, sin_alpha, turning, 0.0))
     spread = Spread(
-        math.sqrt(theta_variance),
-        max(math.sqrt(max(d_variance, 0.0)), NARROWEST),
-        math.log(known.c.upper / known.c.lower) / 4.0,  # a 95 % interval is four deviations wide
-        noise,
+        values['theta_deviation'],
+        max(values['d_deviation'], NARROWEST),
+        values['log_c_deviation'],
+        values['noise'],
         reading,
     )
-    return Belief(x, known.theta, known.d.mean, pushed, edge.d, spread)
+    ends = values['edge_start'], values['edge_end']
+    return Belief(x, values['theta'], values['d'], pushed, ends, spread)

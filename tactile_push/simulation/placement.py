@@ -9,9 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from tactile_push.control import PUSHING, WAITING, Limits, PushControl, Tick
-from tactile_push.control.placing.law import LEARNING, MISSED, Belief, PlaceLaw
+from tactile_push.control.placing.law import Belief, PlaceLaw
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Pushed
+from tactile_push.control.placing.stages import LEARNING, MISSED
 from tactile_push.estimation import ActiveSensing
 from tactile_push.estimation.prior import ROUND
 from tactile_push.mechanics import Slider, friction_cone
@@ -78,7 +79,7 @@ def place(
     rig = Rig(config, faults)
     push = PushControl(law, config.belt_speed, period, limits)
     steps = None if sensing is None else Sensing(sensing, lambda k, _: k * period)
-    noise, piece = faults.sensor.noise, period * config.belt_speed
+    piece = period * config.belt_speed
     learned, end = 0.0, ''
     for k, tick in enumerate(control_periods(rig, push, 1, seed)):
         watch(rig, tick)
@@ -98,9 +99,7 @@ def place(
         else:
             sensed = steps.tick((k, 0), tick)
             x, turning = rig.finger_pose.x, _turning(rig)
-            law.believe(
-                belief_of(sensed.estimate, x, turning, noise, piece) if sensed.known else None
-            )
+            law.believe(belief_of(sensed.values, x, turning, piece))
     x = rig.object_in_finger_disk.x + rig.finger_pose.x
     return Placement(law.stage, end, x - law.goal.x, rig.theta - law.goal.theta, law.used, learned)
 

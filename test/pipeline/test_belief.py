@@ -2,19 +2,33 @@
 # SPDX-License-Identifier: Apache-2.0
 
 import math
+from types import SimpleNamespace
 
 import pytest
 
-from tactile_push.estimation import ObjectEstimator, edges_of
+from tactile_push.estimation import DiskEstimator, ObjectEstimator, edges_of, sensing_values
 from tactile_push.paper import BLOCK_CORNERS, BLOCK_EDGE, BLOCK_L
-from tactile_push.pipeline.belief import belief_of
+from tactile_push.pipeline.belief import NEEDED, belief_of
+
+NOISE, PIECE = 0.005, 5e-4
 
 
-def test_what_is_believed_is_the_mean_under_the_pushed_edge():
-    estimator = ObjectEstimator(edges_of(BLOCK_CORNERS)[:1], 0.005, mu_c=(1.0, 1.0))
+def pushed(estimator):
+    """Return what is known after a push, as an estimate and as numbers."""
     estimator.push(0.1, 0.0, 0.005, 0.0)
     estimate = estimator.push(0.12, 0.002, 0.005, 0.1)
-    believed = belief_of(estimate, 0.03, -12.0, 0.005, 5e-4)
+    sensing = SimpleNamespace(readings=2, age=0.02, noise=NOISE)
+    return estimate, sensing_values(estimate, sensing)
+
+
+@pytest.fixture(scope='module')
+def block():
+    return pushed(ObjectEstimator(edges_of(BLOCK_CORNERS)[:1], NOISE, mu_c=(1.0, 1.0)))
+
+
+def test_what_is_believed_is_the_mean_under_the_pushed_edge(block):
+    estimate, values = block
+    believed = belief_of(values, 0.03, -12.0, PIECE)
     (known,) = estimate.estimates
     assert (believed.x, believed.theta, believed.d) == (0.03, known.theta, known.d.mean)
     assert believed.ends == pytest.approx((-BLOCK_EDGE / 2.0, BLOCK_EDGE / 2.0))
@@ -24,5 +38,30 @@ def test_what_is_believed_is_the_mean_under_the_pushed_edge():
     assert believed.pushed.sin_alpha == pytest.approx(math.sqrt(0.5))
     assert believed.pushed.cos_alpha == pytest.approx(math.sqrt(0.5))
     assert believed.spread.d == pytest.approx(math.sqrt(known.covariance[1, 1]))
+    assert believed.spread.noise == NOISE
+    assert believed.spread.reading == PIECE
     assert believed.pushed.pressure.growth == pytest.approx(1.5, abs=0.5)
     assert math.sqrt(believed.pushed.pressure.c_squared) == pytest.approx(known.c.mean, rel=0.05)
+
+
+@pytest.mark.parametrize('name', [*NEEDED, 'mu_c'])
+def test_without_one_of_the_numbers_nothing_is_believed(block, name):
+    _, values = block
+    assert belief_of({**values, name: math.nan}, 0.03, 0.0, PIECE) is None
+    others = {other: value for other, value in values.items() if other != name}
+    assert belief_of(others, 0.03, 0.0, PIECE) is None
+
+
+@pytest.mark.parametrize(('x', 'turning'), [(math.nan, 0.0), (0.0, math.nan)])
+def test_without_the_finger_s_place_nothing_is_believed(block, x, turning):
+    assert belief_of(block[1], x, turning, PIECE) is None
+
+
+def test_friction_may_be_infinite(block):
+    believed = belief_of({**block[1], 'mu_c': math.inf}, 0.03, 0.0, PIECE)
+    assert (believed.pushed.cos_alpha, believed.pushed.sin_alpha) == (0.0, 1.0)
+
+
+def test_of_a_disk_without_edges_nothing_is_believed():
+    _, values = pushed(DiskEstimator(0.03, NOISE))
+    assert belief_of(values, 0.03, 0.0, PIECE) is None
