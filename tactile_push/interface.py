@@ -91,6 +91,9 @@ SERVO_STATE = 'finger_servo/state'
 OBJECT_POSE = 'object_pose'
 SENSING_STATE = 'active_sensing/state'
 SENSING_MARKERS = 'active_sensing/markers'
+PLACE_GOAL = 'place/goal'
+PLACE_STATE = 'place/state'
+PLACE_RELEASE = 'place/release'
 TRUE_POSE = 'ground_truth/object_pose'
 TRUE_STATE = 'ground_truth/state'
 MARKERS = 'markers'
@@ -102,6 +105,7 @@ PARAMETER_EVENTS = '/parameter_events'
 TARE = 'wrench_sensor/tare'
 TAKE_REFERENCE = 'camera_sensor/take_reference'
 RESUME = 'push_controller/resume'
+CANCEL = 'place/cancel'
 PAUSE, STEP = '~/pause', '~/step'
 
 # What the recorder notes in a bag beside the messages.
@@ -112,6 +116,8 @@ WRIST_JOINT = 'wrist_joint'  # in `joint_states` of a finger whose wrist holds t
 
 # Kinds of sensor that the simulated finger may have.
 SENSORS = (SENTENCE, FORCE_TORQUE, CAMERA) = ('sentence', 'wrench', 'camera')
+# Laws of the controller: (18), and the one that brings an object to a place and an angle.
+PUSH, PLACE = LAWS = ('push', 'place')
 # Points of the finger tip of which one follows the commanded velocity across the belt.
 POINTS = ('centre', 'pole', 'contact')
 # What moves the finger: a velocity across the belt, or one of each joint.
@@ -130,6 +136,7 @@ COMPRESSED_IMAGE_TYPE = 'sensor_msgs/msg/CompressedImage'
 TWIST_TYPE = 'geometry_msgs/msg/TwistStamped'
 VELOCITIES_TYPE = 'std_msgs/msg/Float64MultiArray'
 MARKERS_TYPE = 'visualization_msgs/msg/MarkerArray'
+BOOL_TYPE = 'std_msgs/msg/Bool'
 
 NODES = {
     node.name: node
@@ -149,7 +156,9 @@ NODES = {
         ),
         NodeSummary(CONTACT_GEOMETRY, 'computes the contact from a reading and the joint angles'),
         NodeSummary(
-            PUSH_CONTROLLER, 'turns the object with the control law (18) of the paper', managed=True
+            PUSH_CONTROLLER,
+            'turns the object with the control law (18) of the paper, or places it',
+            managed=True,
         ),
         NodeSummary(
             ACTIVE_SENSING,
@@ -290,7 +299,7 @@ TOPICS = {
             'covariance; stamped as the reading; nothing is published while nothing is known or '
             'readings contradict the object',
         ),
-        Topic(SENSING_STATE, JOINT_STATE_TYPE, (ACTIVE_SENSING,), (LIVE_PAGE,),
+        Topic(SENSING_STATE, JOINT_STATE_TYPE, (ACTIVE_SENSING,), (PUSH_CONTROLLER, LIVE_PAGE),
             'the estimate after each control period, as of the last reading; NaN is unknown',
             (
                 *_estimated('d', 'm', 'contact location along the edge'),
@@ -327,6 +336,43 @@ TOPICS = {
             'the outline at its estimated pose, the centre of mass along the 95 % and the '
             'guaranteed interval; published while somebody subscribes',
             recorded=False,
+        ),
+        Topic(PLACE_GOAL, POSE_TYPE, ('your node',), (PUSH_CONTROLLER,),
+            'where to let go, in `finger_base`: `position.x` is where the centre of mass is to be '
+            'across the belt [m], the yaw is theta of the pushed edge [rad]',
+        ),
+        Topic(PLACE_STATE, JOINT_STATE_TYPE, (PUSH_CONTROLLER,), (),
+            'what becomes of the goal, in each control period with the law `place`; stamped as '
+            '`push_controller/state`; NaN is unknown',
+            (
+                Field('stage', '', 'what the law does', 'control.placing.STAGES'),
+                Field('refusal', '', 'why the last goal was refused', 'control.placing.REFUSALS'),
+                Field('goals', '', 'goals taken since activation'),
+                Field('refused', '', 'goals refused since activation'),
+                Field('released', '', 'objects let go since activation'),
+                Field('goal_x', 'm', 'where the centre of mass is to be across the belt'),
+                Field('goal_theta', 'rad', 'the angle that the pushed edge is to have'),
+                Field('x', 'm', 'where the centre of mass is now, as believed'),
+                Field('theta', 'rad', 'the same of the angle'),
+                Field('d', 'm', 'the same of the contact along the edge'),
+                Field('x_miss', 'm', 'where the plan ends, less goal_x'),
+                Field('theta_miss', 'rad', 'the same of the angle'),
+                Field('way_left', 'm', 'belt that the plan takes'),
+                Field('belt_left', 'm', 'belt that is left for the goal'),
+                Field('reachable', '', 'whether the goal can be reached, as of the last look',
+                    'control.placing.VERDICTS'),
+                Field('reach_reason', '', 'what forbids it', 'control.placing.REASONS'),
+                Field('nearest_x', 'm', 'goal_x of the nearest goal in reach, if it is another'),
+                Field('nearest_theta', 'rad', 'goal_theta of the nearest goal in reach'),
+                Field('let_go_in', 's',
+                    'time from the stamp until `place/release` says so, if that is within the '
+                    'period'),
+                Field('estimate_age', 's', 'age of the estimate that was used'),
+                Field('turning', 'rad/m', 'by how much the finger tip turns for its way'),
+            ),
+        ),
+        Topic(PLACE_RELEASE, BOOL_TYPE, (PUSH_CONTROLLER,), ('the finger',),
+            'true at the moment to let the object go, false when the finger is to be down again',
         ),
         Topic(TRUE_POSE, POSE_TYPE, PLANTS, (LIVE_PAGE,),
             "in `finger_disk`: the object's true centre of mass and orientation",
@@ -390,9 +436,23 @@ SERVICES = (
         PUSH_CONTROLLER,
         'lets the controller push again after a stop that waits for somebody to look',
     ),
+    Service(
+        CANCEL,
+        'std_srvs/srv/Trigger',
+        PUSH_CONTROLLER,
+        'gives up the goal: the finger stands still, and the object is not let go',
+    ),
     Service(PAUSE, 'std_srvs/srv/SetBool', BAG_PLAYER, 'pauses and resumes'),
     Service(STEP, 'std_srvs/srv/Trigger', BAG_PLAYER, 'plays one message'),
 )
+
+
+def is_frame(frame: str, expected: str) -> bool:
+    """Return whether a message's frame is one of `FINGER_BASE` and so on, or not given.
+
+    A second finger's may have a prefix.
+    """
+    return not frame or frame.endswith(expected)
 
 
 def own_name(topic: str) -> str | None:

@@ -28,6 +28,7 @@ from tactile_push.interface import (
     TACTILE,
     TOPICS,
     fingers,
+    is_frame,
     node_in,
 )
 from tactile_push.tactile import REFUSALS, Reading, reading_values
@@ -50,9 +51,10 @@ def test_every_node_has_a_module_and_a_command():
     assert set(NODES) == modules == commands
 
 
-def test_givers_and_takers_are_nodes_of_the_package_or_the_finger():
+def test_givers_and_takers_are_nodes_of_the_package_or_the_finger_or_yours():
+    others = {'the finger', 'the sensor', 'your node'}
     for topic in TOPICS.values():
-        assert {*topic.givers, *topic.takers} <= {*NODES, 'the finger', 'the sensor'}
+        assert {*topic.givers, *topic.takers} <= {*NODES, *others}
 
 
 def test_recorded_topics_are_all_but_what_follows_from_them_and_images():
@@ -76,6 +78,21 @@ def test_fields_of_an_estimate():
     sensing = ActiveSensing(estimator, FingerMotion(0.0, 0.0), 0.005, 0.3)
     values = sensing_values(sensing.tick(0.0, 0.0, 0.0, 0.0), sensing)
     assert tuple(values) == TOPICS[SENSING_STATE].field_names
+
+
+@pytest.mark.parametrize(
+    ('frame', 'expected', 'found'),
+    [
+        ('', 'finger_base', True),
+        ('finger_base', 'finger_base', True),
+        ('left/finger_base', 'finger_base', True),
+        ('left_finger_disk', 'finger_disk', True),
+        ('finger_disk', 'finger_base', False),
+        ('map', 'finger_base', False),
+    ],
+)
+def test_a_frame_may_have_a_prefix_or_be_left_out(frame, expected, found):
+    assert is_frame(frame, expected) is found
 
 
 @pytest.mark.parametrize('name', ['block', 'stops'])

@@ -54,8 +54,7 @@ class ActiveSensingParameters(NodeParameters):
         'than was commanded: silent says nothing, '
         'widen takes each reading for the first one, straight takes the tip for one that does not '
         'turn', choices=WITHOUT_PSI, read_only=True)
-    finger_lag: float = parameter(0.0, 's',
-        'time constant with which the finger follows its commands', 0.0, 10.0, read_only=True)
+    finger_lag: float = shared.finger_lag
     finger_delay: float = parameter(0.0, 's',
         'time before a command has any effect on the finger', 0.0, 10.0, read_only=True)
     belt_speed: float = shared.belt_speed

@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parameters of `push_controller`, and the control that they make."""
 
+import math
 from dataclasses import dataclass
 
 from tactile_push import paper
 from tactile_push.control import Limits, PushControl, PushLaw, Steadying
+from tactile_push.interface import LAWS, PLACE, PUSH
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
+from tactile_push.pipeline import Control, Seconds
 from tactile_push.tactile import PlanarFinger
 
 LIMITS = Limits()
@@ -16,9 +19,12 @@ STEEPEST = 1.5  # largest angle that the edge may be asked to have [rad]; pi/2 f
 
 @dataclass(frozen=True)
 class PushControllerParameters(NodeParameters):
-    """The law (18), what bounds its commands and stops the finger, and the finger's links."""
+    """The law, what bounds its commands and stops the finger, and the finger's links."""
 
     # fmt: off
+    law: str = parameter(PUSH, '',
+        'what the finger does: push turns the object by the law (18), place brings it to the goals '
+        'on place/goal and lets it go there; counts from the next activation on', choices=LAWS)
     kp: float = parameter(paper.KP, 'rad/rad', 'proportional gain of the law (18)', 0.0, 100.0)
     kd: float = parameter(paper.KD, 'rad/rad', 'derivative gain of the law (18)', 0.0, 1000.0)
     theta_desired: float = parameter(paper.THETA_DESIRED, 'rad',
@@ -30,6 +36,13 @@ class PushControllerParameters(NodeParameters):
         'distance l from the pushed edge to the centre of mass, for the trim and for telling how '
         'fast a drift grows', 1e-3, 1.0, read_only=True)
     finger_radius: float = shared.finger_radius
+    belt_length: float = parameter(0.3, 'm',
+        'belt that there is to place an object, from the first contact on; without having placed '
+        'it the finger then stands still', 0.01, 100.0, read_only=True)
+    release_delay: float = parameter(0.0, 's',
+        'what the finger takes from place/release until the object is free', 0.0, 5.0,
+        read_only=True)
+    finger_lag: float = shared.finger_lag
     phi_min: float = parameter(paper.PHI_MIN, 'rad',
         'smallest push angle', 0.1, 1.57, read_only=True)
     phi_max: float = parameter(paper.PHI_MAX, 'rad',
@@ -67,23 +80,57 @@ class PushControllerParameters(NodeParameters):
 
 
 def make_control(p: PushControllerParameters) -> PushControl:
-    """Make the control, inactive.
+    """Make the control with the law (18), inactive.
 
     Raises
     ------
     ValueError
-        If the workspace is empty, the finger has neither two nor three joints, or theta_desired
-        could be trimmed too far.
+        If the workspace is empty, the finger has neither two nor three joints, or other values do
+        not fit together.
     """
-    check_trimmed(p)
+    check_fit(p)
     if not len(p.joint_names) == len(set(p.joint_names)) in (2, 3):
         raise ValueError(f'joint_names: expected two or three different names, got {p.joint_names}')
-    law = PushLaw(p.kp, p.kd, p.theta_desired, p.phi_min, p.phi_max)
     limits = Limits(workspace_min=p.workspace_min, workspace_max=p.workspace_max)
     steadying = Steadying(p.steadying_max, p.edge_distance, p.finger_radius)
-    control = PushControl(law, p.belt_speed, 1.0 / p.control_rate, limits, steadying)
+    control = PushControl(make_law(p), p.belt_speed, 1.0 / p.control_rate, limits, steadying)
     take_values(control, p)
     return control
+
+
+def make_law(p: PushControllerParameters) -> PushLaw:
+    """Make the law (18)."""
+    return PushLaw(p.kp, p.kd, p.theta_desired, p.phi_min, p.phi_max)
+
+
+def choose_law(steps: Control, p: PushControllerParameters, seconds: Seconds) -> None:
+    """Let a control begin anew with the law that the parameters name, compiled.
+
+    Parameters
+    ----------
+    steps, p, seconds : Control, PushControllerParameters, callable
+        The control's steps, the parameters, and what returns the time [s] of a stamp.
+    """
+    steps.placing = None
+    steps.push.law = make_law(p)
+    if p.law == PLACE:
+        # Which load the compiler.
+        from tactile_push.control.placing.compiling import compile_placing
+        from tactile_push.control.placing.law import NOWHERE, PlaceLaw
+        from tactile_push.pipeline.placing import Placing
+
+        slowest = math.atan2(p.belt_speed, p.max_speed)  # phi at the greatest speed
+        law = PlaceLaw(
+            *(NOWHERE, p.belt_length, p.belt_speed, 1.0 / p.control_rate),
+            lag=p.finger_lag,
+            delay=p.release_delay,
+            workspace=(p.workspace_min, p.workspace_max),
+            rate=p.max_acceleration,
+            phi_min=max(p.phi_min, slowest),
+            phi_max=min(p.phi_max, math.pi - slowest),
+        )
+        compile_placing()
+        steps.placing = Placing(steps.push, law, seconds)
 
 
 def make_finger(p: PushControllerParameters) -> PlanarFinger:
@@ -91,14 +138,18 @@ def make_finger(p: PushControllerParameters) -> PlanarFinger:
     return PlanarFinger(p.proximal_length, p.distal_length, p.mount_angle)
 
 
-def check_trimmed(p: PushControllerParameters) -> None:
-    """Refuse an angle that steadying could trim to one at which the edge faces away.
+def check_fit(p: PushControllerParameters) -> None:
+    """Refuse an angle that could be trimmed to a faced-away edge, and what cannot place.
 
     Raises
     ------
     ValueError
-        If it could.
+        If values do not fit together.
     """
+    if p.law == PLACE and not p.use_joint_states:
+        raise ValueError('use_joint_states: expected true with law place, got false')
+    if p.law == PLACE and p.steadying_max > 0.0:
+        raise ValueError(f'steadying_max: expected 0 with law place, got {p.steadying_max:g}')
     most = STEEPEST - p.steadying_max
     if not abs(p.theta_desired) <= most:
         raise ValueError(
@@ -109,8 +160,8 @@ def check_trimmed(p: PushControllerParameters) -> None:
 
 def take_values(control: PushControl, p: PushControllerParameters) -> None:
     """Set the control's values that may change while it runs."""
-    law, limits = control.law, control.limits
-    law.kp, law.kd, law.theta_desired = p.kp, p.kd, p.theta_desired
+    limits = control.limits
+    control.law.tune(p.kp, p.kd, p.theta_desired)
     if isinstance(control.steadying, Steadying):
         control.steadying.bound = p.steadying_max
     limits.contact_timeout = p.contact_timeout

@@ -15,6 +15,8 @@ JOINT_NAMES = list(TOPICS[JOINT_STATES].field_names)
 finger_radius = parameter(paper.FINGER_RADIUS, 'm',
     "effective radius of the finger's disk", 1e-4, 1.0, read_only=True)
 belt_speed = parameter(paper.BELT_SPEED, 'm/s', 'speed of the belt', 1e-5, 1.0, read_only=True)
+finger_lag = parameter(0.0, 's',
+    'time constant with which the finger follows its commands', 0.0, 10.0, read_only=True)
 proximal_length = parameter(FINGER.proximal_length, 'm',
     'distance between the moving joints of the finger', 1e-3, 1.0, read_only=True)
 distal_length = parameter(FINGER.distal_length, 'm',

@@ -3,16 +3,26 @@
 """From contacts to commands: what `push_controller` does with each message and at each tick."""
 
 import math
+import typing
 from collections.abc import Iterator, Sequence
 
 from tactile_push.control import UNKNOWN, Drift, PushControl, Tick, plausible, tick_values
-from tactile_push.interface import COMMAND, CONTROLLER_STATE, FINGER_DISK, JOINT_STATES
+from tactile_push.interface import (
+    COMMAND,
+    CONTROLLER_STATE,
+    FINGER_DISK,
+    JOINT_STATES,
+    is_frame,
+)
 from tactile_push.pipeline.messages import Output, command_fields, joint_state_fields
 from tactile_push.pipeline.named import OTHER_JOINTS, REFUSED, TAKEN, Joints
 from tactile_push.pipeline.orientation import yaw_of_quaternion
 from tactile_push.pipeline.stamps import Seconds, Stamp
 from tactile_push.tactile import PlanarFinger
 from tactile_push.tactile.planar_finger import pole_angle
+
+if typing.TYPE_CHECKING:
+    from tactile_push.pipeline.placing import Placing
 
 
 class Control:
@@ -34,7 +44,9 @@ class Control:
         By how much the tip turns where the finger is for each metre across the belt, dpsi/dx
         [rad/m]; NaN if unknown.
     outlook : Outlook
-        Where the finger's drift leads, as of the last tick.
+        Where the finger's drift leads, as of the last tick; unknown with a law that has goals.
+    placing : Placing or None
+        What serves goals, if the law does.
     """
 
     def __init__(
@@ -52,6 +64,7 @@ class Control:
         )
         self.turning = math.nan
         self.outlook = UNKNOWN
+        self.placing: Placing | None = None
         self._now = math.nan  # of the last tick [s]
 
     @property
@@ -137,12 +150,29 @@ class Control:
         self._now = now
         if self._heard_joints:
             self.push.expect_finger(now + timeout)
-        tick = self.push.tick(now, elapsed)
-        self.outlook = self._drift.follow(tick, self.push.law.aim, self.turning)
+        if self.placing is None:
+            tick = self.push.tick(now, elapsed)
+            self.outlook = self._drift.follow(tick, self.push.law.aim, self.turning)
+        else:
+            self.placing.begin()
+            tick = self.push.tick(now, elapsed)
+            self.placing.finish(now, tick, self.turning)
         return tick
 
+    def deactivate(self) -> Tick:
+        """Give up the goal, if there is one, and rest until the next activation.
+
+        Returns
+        -------
+        Tick
+            The last one, with a velocity of 0.
+        """
+        if self.placing is not None:
+            self.placing.cancel()
+        return self.push.deactivate()
+
     def outputs(self, stamp: Stamp, tick: Tick) -> Iterator[Output]:
-        """Yield the messages of a control period: the command, if there is one, and the state.
+        """Yield the messages of a control period: the command, if there is one, and the states.
 
         Parameters
         ----------
@@ -154,6 +184,8 @@ class Control:
         tuple
             Topic and fields.
         """
+        if self.placing is not None:
+            yield from self.placing.outputs(stamp)
         if tick.v_x is not None:
             yield COMMAND, command_fields(stamp, tick.v_x)
         yield CONTROLLER_STATE, joint_state_fields(stamp, tick_values(tick, self.push.law))
@@ -172,6 +204,4 @@ def edge_angle(frame: str, x: float, y: float, z: float, w: float) -> float:
     float
         The angle [rad]; NaN in another frame, or if the quaternion is no rotation about z.
     """
-    if frame and not frame.endswith(FINGER_DISK):  # a second finger's may have a prefix
-        return math.nan
-    return yaw_of_quaternion(x, y, z, w)
+    return yaw_of_quaternion(x, y, z, w) if is_frame(frame, FINGER_DISK) else math.nan

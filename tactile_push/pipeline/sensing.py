@@ -106,12 +106,9 @@ class Sensing:
         )
 
     def _x(self, tick: Tick) -> float:
-        """Return where the finger was at the tick's reading [m]; NaN if the joints do not tell.
-
-        Between joint states and reading, which are never far apart, it followed its command.
-        """
+        """Return where the finger was at the tick's reading [m]; NaN if the joints do not tell."""
         before, self._v_x = self._v_x, tick.known_velocity
-        return tick.finger_x + before * (tick.finger_age - tick.silence)
+        return tick.x_at_reading(before)
 
     def _psi(self, now: float, tick: Tick) -> float:
         """Return the direction of the finger tip at the tick's reading [rad]; NaN if unknown."""

@@ -13,6 +13,7 @@ from tactile_push.interface import (
     JOINT_STATES,
     SERVO_COMMANDS,
     SERVO_STATE,
+    is_frame,
 )
 from tactile_push.pipeline.messages import Output, joint_state_fields, velocities_fields
 from tactile_push.pipeline.named import OTHER_JOINTS, REFUSED, TAKEN, Joints
@@ -74,7 +75,7 @@ class Servo:
         at = now.time if stamp == UNDATED else self._seconds(*stamp)
         if self._is_strange(COMMAND, now.time - at, self.servo.limits.command_timeout):
             return OLD_COMMAND
-        if frame and not frame.endswith(FINGER_BASE):  # a second finger's may have a prefix
+        if not is_frame(frame, FINGER_BASE):
             v_x = math.nan
         self._command_at = at
         return COMMANDED if self.servo.command(v_x, now.steady) else IMPLAUSIBLE

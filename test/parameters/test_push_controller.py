@@ -6,13 +6,16 @@ import math
 
 import pytest
 
+from tactile_push.interface import PLACE, PUSH
 from tactile_push.parameters import PushControllerParameters
 from tactile_push.parameters.push_controller import (
-    check_trimmed,
+    check_fit,
+    choose_law,
     make_control,
     make_finger,
     take_values,
 )
+from tactile_push.pipeline import Control
 
 # Each number that may change while the node runs, and where it has to arrive.
 VALUES = {
@@ -40,7 +43,7 @@ FIXED = {
 
 def test_every_number_that_may_change_is_tested_here():
     changeable = {p.name for p in PushControllerParameters.declared() if not p.read_only}
-    assert changeable == set(VALUES)
+    assert changeable == {*VALUES, 'law'}  # which counts from the next activation on
 
 
 @pytest.mark.parametrize('name', VALUES | FIXED)
@@ -87,9 +90,48 @@ def test_an_angle_that_could_be_trimmed_to_that_of_an_edge_that_faces_away_is_re
 
 @pytest.mark.parametrize(('desired', 'trim'), [(1.5, 0.0), (-1.0, 0.5), (1.1, 0.375)])
 def test_an_angle_that_stays_within_reach_is_taken(desired, trim):
-    check_trimmed(PushControllerParameters(theta_desired=desired, steadying_max=trim))
+    check_fit(PushControllerParameters(theta_desired=desired, steadying_max=trim))
 
 
 def test_an_empty_workspace_is_refused():
     with pytest.raises(ValueError, match='workspace_min: expected less than workspace_max'):
         make_control(PushControllerParameters(workspace_min=0.1, workspace_max=0.1))
+
+
+def steps_of(p):
+    """Return the steps of a control with the law that the parameters name."""
+    steps = Control(make_control(p), make_finger(p), p.joint_names, lambda sec, nanosec: sec)
+    choose_law(steps, p, lambda sec, nanosec: sec)
+    return steps
+
+
+def test_the_law_is_chosen_anew():
+    steps = steps_of(PushControllerParameters(law=PLACE))
+    assert steps.placing is not None
+    choose_law(steps, PushControllerParameters(law=PUSH, kp=0.3), lambda sec, nanosec: sec)
+    assert steps.placing is None
+    assert steps.push.law.kp == 0.3
+
+
+def test_the_law_that_places_gets_its_numbers():
+    steps = steps_of(
+        PushControllerParameters(law=PLACE, belt_length=0.2, belt_speed=0.02, max_speed=0.01)
+    )
+    law = steps.push.law
+    assert law.belt == 0.2
+    # The finger gets as far aside as half the belt's way at the most.
+    assert 1.0 / math.tan(law.phi_min) == pytest.approx(0.5)
+    assert 1.0 / math.tan(law.phi_max) == pytest.approx(-0.5)
+
+
+@pytest.mark.parametrize(
+    ('given', 'refusal'),
+    [
+        ({'use_joint_states': False}, 'use_joint_states: expected true with law place, got false'),
+        ({'steadying_max': 0.1}, 'steadying_max: expected 0 with law place, got 0.1'),
+    ],
+)
+def test_what_cannot_place_is_refused(given, refusal):
+    make_control(PushControllerParameters(**given))
+    with pytest.raises(ValueError, match=refusal):
+        make_control(PushControllerParameters(law=PLACE, **given))

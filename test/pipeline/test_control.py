@@ -6,9 +6,22 @@ import math
 
 import pytest
 
-from tactile_push.control import FINGER_UNKNOWN, NO_REASON, PUSHING, STATES, WAITING
-from tactile_push.interface import COMMAND, CONTROLLER_STATE, FINGER_BASE, FINGER_DISK
-from tactile_push.parameters.push_controller import PushControllerParameters, make_control
+from tactile_push.control import FINGER_UNKNOWN, INACTIVE, NO_REASON, PUSHING, STATES, WAITING
+from tactile_push.control.placing.stages import CANCELLED
+from tactile_push.interface import (
+    COMMAND,
+    CONTROLLER_STATE,
+    FINGER_BASE,
+    FINGER_DISK,
+    PLACE,
+    PLACE_RELEASE,
+    PLACE_STATE,
+)
+from tactile_push.parameters.push_controller import (
+    PushControllerParameters,
+    choose_law,
+    make_control,
+)
 from tactile_push.pipeline import Control, edge_angle
 from tactile_push.pipeline.named import OTHER_JOINTS, REFUSED, TAKEN
 from tactile_push.tactile import PlanarFinger
@@ -19,13 +32,17 @@ ANGLES = [math.pi / 3.0, math.pi / 6.0]
 FINGER_X = 0.03  # 0.06 cos 60 deg [m]
 
 
+def control_seconds(sec, nanosec):
+    return sec + nanosec * 1e-9
+
+
 @pytest.fixture
 def control():
     """Return the step with an active control, on a clock that begins at 0."""
     push = make_control(PushControllerParameters())
     push.activate(0.0)
     finger = PlanarFinger(0.06, 0.04, 0.0)
-    return Control(push, finger, JOINTS, lambda sec, nanosec: sec + nanosec * 1e-9)
+    return Control(push, finger, JOINTS, control_seconds)
 
 
 @pytest.mark.parametrize(
@@ -152,6 +169,26 @@ def test_command_comes_before_the_state_with_the_stamp_of_the_period(control):
     values = dict(zip(state['name'], state['position'], strict=True))
     assert (values['theta'], values['v_x']) == (0.2, tick.v_x)
     assert values['state'] == STATES.index(PUSHING)
+
+
+def test_with_a_law_that_has_goals_its_state_comes_before_the_command():
+    p = PushControllerParameters(law=PLACE)
+    seconds = control_seconds
+    steps = Control(make_control(p), PlanarFinger(0.06, 0.04, 0.0), JOINTS, seconds)
+    choose_law(steps, p, seconds)
+    steps.push.activate(0.0)
+    steps.placing.goal('', 0.0, (0.0, 0.0, 0.0, 1.0))
+    steps.contact((1, 0), 0.2)
+    tick = steps.tick((1, 7))
+    place, down, command, state = steps.outputs((1, 7), tick)
+    assert [topic for topic, _ in (place, down, command, state)] == [
+        *(PLACE_STATE, PLACE_RELEASE, COMMAND, CONTROLLER_STATE),
+    ]
+    assert place[1]['header']['stamp'] == state[1]['header']['stamp'] == {'sec': 1, 'nanosec': 7}
+    # A drift that is part of a plan leads to no end of the workspace.
+    assert not steps.outlook.soon
+    assert steps.deactivate().state == INACTIVE
+    assert steps.placing.stage == CANCELLED
 
 
 @pytest.mark.parametrize('frame', ['', FINGER_DISK, f'left/{FINGER_DISK}', f'left_{FINGER_DISK}'])
