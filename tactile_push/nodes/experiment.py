@@ -21,6 +21,9 @@ from tactile_push.interface import (
     CONTROLLER_STATE,
     LIVE_PAGE,
     PARAMETER_EVENTS,
+    PLACE_GOAL,
+    PLACE_RELEASE,
+    PLACE_STATE,
     RECORDED,
     SENSING_STATE,
     SERVO_COMMANDS,
@@ -33,7 +36,8 @@ from tactile_push.parameters import ExperimentParameters
 from tactile_push.recording.recording import Recording
 
 # Without these recorded from the beginning no experiment starts.
-MORE = (WRENCH, SERVO_COMMANDS, SERVO_STATE)  # of nodes that not every experiment has
+# Of nodes and laws that not every experiment has.
+MORE = (WRENCH, SERVO_COMMANDS, SERVO_STATE, PLACE_GOAL, PLACE_STATE, PLACE_RELEASE)
 AWAITED = tuple(topic for topic in RECORDED if topic not in (CLOCK, PARAMETER_EVENTS, *MORE))
 # That this node sees who hears the controller does not say that the controller sees them, too: on a
 # busy machine active_sensing could miss the first control periods. Picked: on one machine nodes

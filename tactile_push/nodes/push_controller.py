@@ -17,18 +17,37 @@ from rclpy.timer import Timer
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from tactile_push.control import FINGER_UNKNOWN, HELD, PUSHING, STOPPED, WAITING, Tick
-from tactile_push.interface import COMMAND, CONTACT, CONTROLLER_STATE, JOINT_STATES, RESUME
+from tactile_push.control import (
+    FINGER_UNKNOWN,
+    HELD,
+    NOTHING_TO_DO,
+    PUSHING,
+    STOPPED,
+    WAITING,
+    Tick,
+)
+from tactile_push.control.placing.stages import FAILURES, NO_GOAL
+from tactile_push.interface import (
+    COMMAND,
+    CONTACT,
+    CONTROLLER_STATE,
+    JOINT_STATES,
+    PLACE,
+    PLACE_STATE,
+    RESUME,
+)
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.managed import ManagedNode
 from tactile_push.nodes.ros.messages import publish
 from tactile_push.nodes.ros.node_time import NodeTime
 from tactile_push.nodes.ros.parameters import declare, refusing
+from tactile_push.nodes.ros.placing import PlaceTopics
 from tactile_push.nodes.ros.process import run
 from tactile_push.nodes.ros.qos import EVERYBODY, SENSOR_DATA
 from tactile_push.parameters.push_controller import (
     PushControllerParameters,
-    check_trimmed,
+    check_fit,
+    choose_law,
     make_control,
     make_finger,
     take_values,
@@ -45,16 +64,15 @@ class PushController(ManagedNode):
     """Managed node: `contact` in, `finger/cmd_vel` and `push_controller/state` out.
 
     It also subscribes to `joint_states`, to keep the finger in its workspace, and to
-    `finger/cmd_vel`, to notice that somebody else commands the finger.
+    `finger/cmd_vel`, to notice that somebody else commands the finger. The law that places adds the
+    topics of `PlaceTopics`.
     """
 
     NAME = 'push_controller'
 
     def __init__(self) -> None:
         super().__init__(self.NAME)
-        self._settings = declare(
-            self, PushControllerParameters, self._take_parameters, check_trimmed
-        )
+        self._settings = declare(self, PushControllerParameters, self._take_parameters, check_fit)
         with refusing():
             self._control = make_control(self._settings)
         self._time = NodeTime(self)
@@ -70,6 +88,7 @@ class PushController(ManagedNode):
         self._due: Time | None = None  # of a tick that waits for contacts to be heard
         self._contacts_before = 0  # heard until this node last looked whether more have arrived
         self._heard_all = self.create_guard_condition(self._after_hearing)
+        self._place = PlaceTopics(self, self._heard_all.trigger)
         longest = Duration(seconds=self._control.period * (self._settings.max_ticks_lost + 1))
         jump = JumpThreshold(min_forward=longest, min_backward=Duration(nanoseconds=-1))
         self._jump_handle = self.get_clock().create_jump_callback(
@@ -91,15 +110,32 @@ class PushController(ManagedNode):
         self.make_subscription(PoseStamped, CONTACT, self._on_contact, SENSOR_DATA)
         for qos in EVERYBODY:
             self.make_subscription(TwistStamped, COMMAND, self._on_command, qos)
+        if self._settings.law == PLACE:
+            self._outputs |= self._place.make()
         return TransitionCallbackReturn.SUCCESS
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Start the law."""
+        self._choose_law()
         result = super().on_activate(state)
         self._control.activate(self._time.now())
         self._steady = math.nan  # when it ticked last, by a clock that cannot be set [s]
         self._start_timer()
         return result
+
+    def _choose_law(self) -> None:
+        """Begin anew with the law that is asked for; what it needs is made and compiled."""
+        p, seconds = self._settings, self._time.seconds
+        if p.law == PLACE:
+            from tactile_push.nodes.ros.compiling import compiling  # which loads the compiler
+
+            if PLACE_STATE not in self._outputs:
+                self._outputs |= self._place.make()
+            with compiling(self, self._diagnostics):
+                choose_law(self._steps, p, seconds)
+        else:
+            choose_law(self._steps, p, seconds)
+        self._place.serve(self._steps.placing)
 
     def destroy_node(self) -> None:
         """Stop the finger and end."""
@@ -140,14 +176,14 @@ class PushController(ManagedNode):
         self._heard_all.trigger()
 
     def _after_hearing(self) -> None:
-        """Tick if the executor's last turn brought no contact."""
+        """Tick if the executor's last turn brought no contact, and no estimate is on its way."""
         contacts = self._counted['contacts']
         if self._due is None or self._timer is None:
             return
         if self._contacts_before < contacts < self._contacts_at_most:
             self._contacts_before = contacts
             self._heard_all.trigger()
-        else:
+        elif not self._place.waits():
             self._on_tick(self._due)
 
     def _on_contact(self, message: PoseStamped) -> None:
@@ -174,6 +210,7 @@ class PushController(ManagedNode):
 
     def _on_tick(self, due: Time | None = None) -> None:
         self._due = None
+        self._place.before_tick()
         clock = self.get_clock()
         if clock.ros_time_is_active:
             stamp, elapsed = due or clock.now().to_msg(), math.nan
@@ -183,7 +220,9 @@ class PushController(ManagedNode):
         self._tick = self._steps.tick((stamp.sec, stamp.nanosec), elapsed)
         self._ticked_at = time.monotonic()
         self._publish(stamp, self._tick)
-        self._tell_growth(self._tick)  # which takes its time; the finger has its command by now
+        # Which take their time; the finger has its command by now.
+        self._tell_growth(self._tick)
+        self._place.after_tick(stamp)
         self._diagnostics.update()
 
     def _tell_growth(self, tick: Tick) -> None:
@@ -218,7 +257,8 @@ class PushController(ManagedNode):
         self._timer = None
         self._counted = self._counts()
         self._tick = None
-        self._publish(self.get_clock().now().to_msg(), self._control.deactivate())
+        self._place.serve(None)
+        self._publish(self.get_clock().now().to_msg(), self._steps.deactivate())
         self._outputs[COMMAND].wait_for_all_acked(Duration(seconds=0.1))
 
     def _counts(self) -> Counter[str]:
@@ -234,7 +274,7 @@ class PushController(ManagedNode):
         if tick is None:
             return Health(WARN, 'active, no tick yet')
         outlook = self._steps.outlook
-        values = {
+        values: dict[str, object] = {
             'theta [rad]': tick.theta,
             'theta_desired [rad]': self._control.law.aim,
             'trim [rad]': tick.trim,
@@ -248,6 +288,12 @@ class PushController(ManagedNode):
             'phi saturated': tick.saturated,
             'velocity limited': tick.limited,
         }
+        placing = self._steps.placing
+        if placing is not None:
+            values |= {'goal': placing.stage, 'goal reachable': placing.reach.verdict}
+            if tick.stop_reason == NOTHING_TO_DO:
+                level = ERROR if placing.stage in FAILURES else OK
+                return Health(level, f'{tick.stop_reason}: {placing.stage}', values)
         trouble = ''
         if tick.state == WAITING or tick.stop_reason == FINGER_UNKNOWN:
             trouble = self._steps.trouble
@@ -265,7 +311,10 @@ class PushController(ManagedNode):
             return Health(WARN, f'{_words(tick)}, but {trouble}', values)
         rates = self._diagnostics.rates
         lately = rates['ticks lost'] + rates['commands of another node']
-        if tick.state == WAITING or tick.saturated or tick.limited or lately or others > 0:
+        at_bounds = placing is None and (tick.saturated or tick.limited)  # else as planned
+        if placing is not None and placing.stage == NO_GOAL:
+            return Health(OK, 'waiting for a goal', values)
+        if tick.state == WAITING or at_bounds or lately or others > 0:
             return Health(WARN, _words(tick), values)
         return Health(OK, _words(tick), values)
 

@@ -12,7 +12,9 @@ from tactile_push.interface import (
     FINGER_SERVO,
     JOINT_STATES,
     LIVE_PAGE,
+    PLACE_GOAL,
     PUSH_CONTROLLER,
+    SENSING_STATE,
     SENSOR_DRIVER,
     SERVO_COMMANDS,
     SIM_PLANT,
@@ -131,6 +133,13 @@ def test_plant_moves_the_finger_by_what_it_takes(commands):
 
 def test_foreign_sensor_takes_the_place_of_ours():
     assert faults(changed(SENSORLESS, publishers={TACTILE: ends(TACTILE, 'own')})) == []
+
+
+def test_a_law_that_places_needs_the_estimate_and_may_wait_for_a_goal():
+    takes = {topic: ends(topic, PUSH_CONTROLLER) for topic in (PLACE_GOAL, SENSING_STATE)}
+    (fault,) = faults(changed(subscriptions=takes))
+    assert (fault.verdict, fault.subject) == (MISSING, SENSING_STATE)
+    assert 'active_sensing' in fault.remedy
 
 
 def test_reliable_and_best_effort_subscription_of_one_node_serve_each_other():

@@ -27,7 +27,12 @@ from tactile_push.interface import (
     CONTACT,
     CONTROLLER_STATE,
     JOINT_STATES,
+    PLACE,
+    PLACE_GOAL,
+    PLACE_RELEASE,
+    PLACE_STATE,
     PUSH_CONTROLLER,
+    SENSING_STATE,
     TOPICS,
 )
 from tactile_push.nodes.push_controller import PushController
@@ -63,8 +68,18 @@ def told(bench, name):
 
 
 def test_topics_are_those_of_the_interface(bench):
-    bench.start(PushController)
+    bench.start(PushController, law=PLACE)
     assert bench.topics() == declared_topics(PUSH_CONTROLLER)
+
+
+def test_the_law_that_places_alone_needs_its_topics(bench):
+    bench.start(PushController)
+    given, taken = bench.topics()
+    of_placing = {PLACE_GOAL, PLACE_STATE, PLACE_RELEASE, SENSING_STATE}
+    assert not (given | taken) & of_placing
+    assert (given | of_placing, taken | of_placing) == tuple(
+        topics | of_placing for topics in declared_topics(PUSH_CONTROLLER)
+    )
 
 
 def test_without_autostart_it_waits_for_its_manager(bench):
@@ -141,6 +156,9 @@ def test_a_gain_changes_while_it_runs_and_a_bound_on_phi_does_not(bench):
         ({'workspace_min': 0.2}, 'parameter workspace_min: expected less than workspace_max'),
         ({'kp': -0.1}, 'parameter kp: expected'),
         ({'control_rate': 1}, 'parameter control_rate: expected'),
+        ({'law': 'pull'}, 'parameter law: expected one of push, place'),
+        ({'law': 'place', 'steadying_max': 0.1}, 'parameter steadying_max: expected 0 with law'),
+        ({'belt_length': 0.0}, 'parameter belt_length: expected'),
     ],
 )
 def test_a_control_that_is_none_is_refused(bench, parameters, refusal):
