@@ -20,8 +20,10 @@ from tactile_push.control import (
     plausible,
     tick_of,
 )
+from tactile_push.interface import PLACE, PUSH
 from tactile_push.parameters.push_controller import (
     PushControllerParameters,
+    choose_law,
     make_control,
     make_finger,
     take_values,
@@ -29,6 +31,7 @@ from tactile_push.parameters.push_controller import (
 from tactile_push.pipeline import Control, Stamp, by_name
 from tactile_push.pipeline.stamps import seconds_since, stamp_of
 from tactile_push.replay.messages import Replayed
+from tactile_push.replay.placing import RecordedPlacing
 
 # So much later than a tick the bag may have a contact that the tick used [ns]. The middleware sends
 # a message again after 3 s that a busy recorder has lost, and simulated time, by which it records,
@@ -60,16 +63,22 @@ class ReplayedController:
     `push_controller/state` says when the node ticked, which contact and which position of the
     finger were the newest, and what happened otherwise: an activation, another node's command, a
     clock that was set, a resume. The rest follows. Overridden parameters do not follow the bag.
+    With the law `place`, `place/state` says what else happened, if it was recorded.
     """
 
     def __init__(
-        self, values: PushControllerParameters, overridden: Collection[str], epoch: int
+        self,
+        values: PushControllerParameters,
+        overridden: Collection[str],
+        epoch: int,
+        places: bool = False,
     ) -> None:
         self._values = replace(values, steadying_max=0.0)  # each tick tells how it was trimmed
         self._overridden = overridden
         self._seconds = partial(seconds_since, epoch)
         self._push = make_control(self._values)
         self.step = Control(self._push, make_finger(values), values.joint_names, self._seconds)
+        self.placing = RecordedPlacing(self._seconds) if places else None
         self._contacts: deque[_Contact] = deque(maxlen=REMEMBERED)
         self._newest = -math.inf
         self._waiting: deque[_Recorded] = deque()
@@ -88,26 +97,29 @@ class ReplayedController:
             at = self._seconds(*stamp)
             self._contacts.append(_Contact(theta, at, log_time))
             self._newest = max(self._newest, at)
-            yield from self._go_on(log_time)
+            yield from self.go_on(log_time)
 
     def state(self, message: Any, log_time: int) -> Iterator[Replayed]:
         """Take a message of `push_controller/state` and yield the ticks that can be made."""
         values = by_name(message.name, message.position)
         law = {name: values[name] for name in LAW if name in values}
         self._waiting.append(_Recorded(stamp_of(message), log_time, tick_of(values), law))
-        yield from self._go_on(log_time)
+        yield from self.go_on(log_time)
 
     def finish(self) -> Iterator[Replayed]:
         """Yield the ticks that still wait."""
-        return self._go_on(math.inf)
+        return self.go_on(math.inf)
 
-    def _go_on(self, log_time: float) -> Iterator[Replayed]:
+    def go_on(self, log_time: float) -> Iterator[Replayed]:
         """Yield the ticks whose contacts are there, or waited for long enough."""
         while self._waiting:
             recorded = self._waiting[0]
             used = self._seconds(*recorded.stamp) - recorded.tick.silence
             felt = recorded.tick.state != INACTIVE and math.isfinite(recorded.tick.theta)
             complete = not felt or self._newest > used - HALF_A_NANOSECOND
+            if self.placing is not None:
+                last = recorded.tick.state == INACTIVE
+                complete = complete and self.placing.complete(recorded.stamp, last)
             if not complete and log_time < recorded.log_time + PATIENCE:
                 return
             self._waiting.popleft()
@@ -115,6 +127,8 @@ class ReplayedController:
             self._last = made and self._as_recorded(made, recorded.tick)
             self._before = recorded
             yield Replayed(recorded.stamp, recorded.log_time, self._last, recorded.tick)
+            if self.step.placing is not None:
+                self.step.placing.look_ahead()
 
     def _as_recorded(self, tick: Tick, recorded: Tick) -> Tick:
         """Return a tick with the recorded psi, and the trim that the recorded theta_d has in it."""
@@ -131,10 +145,14 @@ class ReplayedController:
         if not self._following or before is None:
             return self._begin(recorded, now)
         if recorded.tick.state == INACTIVE:
-            return self._push.deactivate()
+            self._feed_placing(recorded)
+            return self.step.deactivate()
         if before.tick.state == INACTIVE or recorded.tick.ticks <= before.tick.ticks:
-            self._push.activate(now - _waited(recorded.tick))
+            self._following = self._activate(recorded, now)
             self._last = None
+            if not self._following:
+                return None
+        self._feed_placing(recorded)
         self._feed(recorded, now)
         self._befall(recorded, now)
         return self.step.tick(recorded.stamp, recorded.tick.elapsed)
@@ -149,10 +167,14 @@ class ReplayedController:
         if tick.state == INACTIVE or not known:
             return None
         if tick.ticks == 1:
-            self._following = True
-            self._push.activate(now - _waited(tick))
+            self._following = self._activate(recorded, now)
+            if not self._following:
+                return None
+            self._feed_placing(recorded)
             self._feed(recorded, now)
             return self.step.tick(recorded.stamp, tick.elapsed)
+        if PLACE in (self._law(recorded), self._values.law):
+            return None  # the law's memory is not in the bag
         if before is None or not before.tick.state == tick.state == PUSHING:
             return None
         if used > self._seconds(*before.stamp) - before.tick.silence:
@@ -160,6 +182,25 @@ class ReplayedController:
             self._push.continue_from(tick, now)
             self._take_contacts(used, recorded.log_time)
         return None
+
+    def _law(self, recorded: _Recorded) -> str:
+        """Return which law acted in a control period."""
+        places = self.placing is not None and self.placing.of(recorded.stamp) is not None
+        return PLACE if places else PUSH
+
+    def _activate(self, recorded: _Recorded, now: float) -> bool:
+        """Begin with the law that the node began with; return whether it can be followed."""
+        law = self._law(recorded)
+        if self._values.law == PLACE != law:  # nobody recorded what it was told
+            return False
+        choose_law(self.step, replace(self._values, law=law), self._seconds)
+        self._push.activate(now - _waited(recorded.tick))
+        return True
+
+    def _feed_placing(self, recorded: _Recorded) -> None:
+        """Give the law that places its goals and estimates."""
+        if self.placing is not None and self._law(recorded) == PLACE:
+            self.placing.feed(self.step, recorded.stamp)
 
     def _feed(self, recorded: _Recorded, now: float) -> None:
         """Give the law the contacts up to its newest one, and the position of the finger."""

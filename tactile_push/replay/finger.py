@@ -3,6 +3,7 @@
 """One finger's way from reading to command and estimate, over a bag's messages."""
 
 from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -16,6 +17,8 @@ from tactile_push.interface import (
     GEOMETRY_STATE,
     JOINT_STATES,
     OBJECT_POSE,
+    PLACE_STATE,
+    PUSH,
     PUSH_CONTROLLER,
     SENSING_STATE,
     TACTILE,
@@ -43,7 +46,7 @@ FOREIGN = 2 * PATIENCE  # after which a recorded command belongs to no tick [ns]
 REMEMBERED = 10_000  # control periods whose recorded command has not come; picked, far more
 
 FOLLOWS_CHANGES = (ReplayedGeometry, ReplayedController)
-ALL_FIELDS = frozenset(TOPICS[CONTROLLER_STATE].field_names)
+GROWING = (CONTROLLER_STATE, SENSING_STATE)  # topics that had fewer fields in earlier versions
 
 Handler = Callable[[Message], None]
 
@@ -71,7 +74,9 @@ class Finger:
         self._as_recorded: list[tuple[Stamp, Message]] = []
         self._commands: dict[Stamp, Message] = {}
         self._states: dict[Stamp, Message] = {}
-        self._known = ALL_FIELDS  # those that the version that recorded had of a control period
+        self._places: dict[Stamp, Message] = {}
+        # Fields that the version that recorded had, by topic.
+        self._known = {topic: frozenset(TOPICS[topic].field_names) for topic in GROWING}
         # Whether a control period has made its command again; a recorded one may come after it.
         self._made: dict[Stamp, bool] = {}
 
@@ -83,9 +88,17 @@ class Finger:
         self, topics: Collection[str], epoch: int
     ) -> ReplayedController | OwnTicks:
         values = PushControllerParameters.of(self._parameters.used[PUSH_CONTROLLER])
+        recorded = PushControllerParameters.taken(self._parameters.recorded[PUSH_CONTROLLER])
+        values = replace(values, law=recorded.get('law', PUSH))
         if CONTROLLER_STATE not in topics:
             return OwnTicks(values, epoch)
-        controller = ReplayedController(values, self._parameters.wanted[PUSH_CONTROLLER], epoch)
+        places = {PLACE_STATE, SENSING_STATE} <= set(topics)
+        wanted = self._parameters.wanted[PUSH_CONTROLLER]
+        controller = ReplayedController(values, wanted, epoch, places)
+        if PLACE_STATE in topics:
+            self.handlers[PLACE_STATE] = partial(self._take_place_state, controller)
+        if places:
+            self.handlers[SENSING_STATE] = partial(self._take_estimate, controller, None)
         self.handlers[CONTROLLER_STATE] = partial(self._take_tick, controller)
         self.handlers[COMMAND] = self._take_command
         return controller
@@ -119,7 +132,7 @@ class Finger:
         recorded = topics if CONTROLLER_STATE in topics else ()
         sensing = ReplayedSensing(step, recorded, self._start)
         self.comparison.sensed = sensing.sensed
-        self.handlers[SENSING_STATE] = partial(self._take_sensed, sensing.state)
+        self.handlers[SENSING_STATE] = partial(self._take_estimate, self._controller, sensing.state)
         self.handlers[OBJECT_POSE] = partial(self._take_sensed, sensing.pose)
         return sensing
 
@@ -142,6 +155,7 @@ class Finger:
                 self._write([message])
         self._conclude(self._controller.finish())
         self._keep_commands(None)
+        self._write(self._places.values())
         if self._sensing is not None:
             self._write(self._sensing.finish())
 
@@ -172,7 +186,7 @@ class Finger:
     def _take_tick(self, controller: ReplayedController, message: Message) -> None:
         decoded = self._decode(message)
         self._states[stamp_of(decoded)] = message
-        self._known = frozenset(decoded.name)
+        self._known[CONTROLLER_STATE] = frozenset(decoded.name)
         self._conclude(controller.state(decoded, message.log_time))
 
     def _take_command(self, message: Message) -> None:
@@ -183,6 +197,28 @@ class Finger:
         elif not made:
             self._write([message])
         self._keep_commands(message.log_time - FOREIGN)
+
+    def _take_place_state(self, controller: ReplayedController, message: Message) -> None:
+        decoded = self._decode(message)
+        self._places[stamp_of(decoded)] = message
+        if controller.placing is not None:
+            controller.placing.state(decoded)
+            self._conclude(controller.go_on(message.log_time))
+
+    def _take_estimate(
+        self,
+        controller: ReplayedController | OwnTicks,
+        take: Callable[[Message, Any], Iterable[Written]] | None,
+        message: Message,
+    ) -> None:
+        """Take what active sensing said: the law may have used it, and it may be made again."""
+        decoded = self._decode(message)
+        self._known[SENSING_STATE] = frozenset(decoded.name)
+        if take is not None:
+            self._write(take(message, decoded))
+        if isinstance(controller, ReplayedController) and controller.placing is not None:
+            controller.placing.estimate(decoded)
+            self._conclude(controller.go_on(message.log_time))
 
     def _take_sensed(
         self, take: Callable[[Message, Any], Iterable[Written]], message: Message
@@ -206,13 +242,14 @@ class Finger:
         """Pass on the ticks that were made, and keep recorded ones that cannot be."""
         for stamp, log_time, tick, recorded in ticks:
             state, command = self._states.pop(stamp, None), self._commands.pop(stamp, None)
+            place = self._places.pop(stamp, None)
             if command is None:
                 self._made[stamp] = tick is not None and tick.v_x is not None
                 if len(self._made) > REMEMBERED:
                     del self._made[next(iter(self._made))]
             if tick is None:
                 self.comparison.keep(nanoseconds(stamp))
-                self._write(message for message in (command, state) if message is not None)
+                self._write(m for m in (place, command, state) if m is not None)
                 self._sense(stamp, log_time, recorded)
             else:
                 self._write_outputs(self._controller.step.outputs(stamp, tick), log_time)
@@ -256,6 +293,6 @@ class Finger:
                 self.new_bag.copy(message)
             else:
                 (topic, fields), log_time = message
-                if topic == CONTROLLER_STATE:
-                    fields = only(self._known, fields)
+                if topic in GROWING:
+                    fields = only(self._known[topic], fields)
                 self.new_bag.write(f'{self._namespace}/{topic}', fields, log_time)

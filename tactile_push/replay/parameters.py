@@ -27,7 +27,7 @@ LINKS = ('proximal_length', 'distal_length', 'mount_angle')
 RECORDED_EFFECT = {
     CONTACT_GEOMETRY: {'joint_names', 'use_joint_states'},
     PUSH_CONTROLLER: {
-        *('control_rate', 'joint_names', 'use_joint_states', *LINKS),
+        *('law', 'control_rate', 'joint_names', 'use_joint_states', *LINKS),
         *('steadying_max', 'edge_distance', 'finger_radius'),
     },
 }

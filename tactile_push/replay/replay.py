@@ -18,6 +18,7 @@ from tactile_push.interface import (
     JOINT_STATES,
     OBJECT_POSE,
     PARAMETER_EVENTS,
+    PLACE_STATE,
     PUSH_CONTROLLER,
     SENSING_STATE,
     TACTILE,
@@ -37,6 +38,7 @@ from tactile_push.replay.parameters import (
 READINGS = (TACTILE, GEOMETRY_STATE, CONTACT)  # of which a replay needs one
 MADE = (CONTACT, GEOMETRY_STATE, CONTROLLER_STATE, COMMAND)
 SENSED = (SENSING_STATE, OBJECT_POSE)
+PLACED = (PLACE_STATE,)  # made if it was recorded
 
 
 def replay(
@@ -52,8 +54,9 @@ def replay(
     The readings go through the steps that the nodes run, on the recorded stamps, in the recorded
     order, and without waiting: the result is the same every time, to the bit. If nothing else is
     asked for and the bag has `contact_geometry/state` and `push_controller/state`, it is what the
-    nodes gave. The object is sensed if the parameters of `active_sensing` were recorded or the file
-    has a section for it.
+    nodes gave. With the law `place` that takes `place/state` and `active_sensing/state`, too, and a
+    processor of the same kind. The object is sensed if the parameters of `active_sensing` were
+    recorded or the file has a section for it.
 
     Parameters
     ----------
@@ -82,7 +85,7 @@ def replay(
     OSError
         If a file cannot be read, or the new bag cannot be written.
     """
-    used = {TACTILE, JOINT_STATES, PARAMETER_EVENTS, *MADE, *SENSED}
+    used = {TACTILE, JOINT_STATES, PARAMETER_EVENTS, *MADE, *SENSED, *PLACED}
     found = fingers_in(
         bag, READINGS, used, 'nothing to replay, expected a topic tactile or contact'
     )
@@ -103,7 +106,8 @@ def replay(
     made = {
         f'{namespace}/{topic}': TOPICS[topic].type_name
         for namespace, finger in replayed
-        for topic in (MADE if finger.comparison.sensed is None else MADE + SENSED)
+        for topic in (*MADE, *(() if finger.comparison.sensed is None else SENSED), *PLACED)
+        if topic not in PLACED or topic in found[namespace]
     }
     made = still_free(bag, made)
     events = is_own(bag, PARAMETER_EVENTS)
