@@ -133,10 +133,22 @@ class PushLaw:
         """Take note of a period without a new reading: the push goes on as it was."""
 
     def pass_time(self, seconds: float) -> None:
-        """Take note of the time since the last period [s]; law (18) counts readings alone."""
+        """Take note of the time since the last period; law (18) counts readings alone.
+
+        Parameters
+        ----------
+        seconds : float
+            The time [s].
+        """
 
     def tune(self, kp: float, kd: float, theta_desired: float) -> None:
-        """Take gains [rad/rad] and theta_d [rad] that somebody has changed."""
+        """Take values that somebody has changed.
+
+        Parameters
+        ----------
+        kp, kd, theta_desired : float
+            Gains [rad/rad] and the edge's desired angle [rad].
+        """
         self.kp, self.kd, self.theta_desired = kp, kd, theta_desired
 
     @property
