@@ -98,7 +98,7 @@ def settled_run(
             break
         sensed = knows.tick((k, 0), tick)
         turning = rig.config.finger.turning(*rig.joints[:2])
-        where = rig.finger_pose.x, turning, noise, period * config.belt_speed
-        law.believe(belief_of(sensed.estimate, *where) if sensed.known else None)
+        where = rig.finger_pose.x, turning, period * config.belt_speed
+        law.believe(belief_of(sensed.values, *where))
     angles, phi, d, x, y, mode = np.array(rows).T
     return Rollout(angles, phi, d, x, y, mode.astype(np.int64), end)

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from tactile_push.control.placing.stages import RELEASED
 from tactile_push.control.placing.model import Goal
+from tactile_push.control.placing.stages import RELEASED
 from tactile_push.simulation import paper_block, paper_disk
 from tactile_push.simulation.placed_run import placed_run
 
