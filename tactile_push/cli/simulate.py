@@ -1,14 +1,16 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""`tactile_push simulate`: one object under the control law or open loop."""
+"""`tactile_push simulate`: one object under a control law or open loop."""
 
 import argparse
 import math
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tactile_push.cli.arguments import Commands, Refused, number, picture, steps
+from tactile_push.cli.simulated_laws import DEFAULTS, LAWS, Simulated, check_law
 from tactile_push.paper import (
     BLOCK,
     BLOCK_DEPTH,
@@ -16,25 +18,23 @@ from tactile_push.paper import (
     D_INITIAL,
     DISK,
     DISK_RADIUS,
-    KD,
-    KP,
-    THETA_DESIRED,
     THETA_INITIAL,
     TOLERANCE,
 )
 
 if TYPE_CHECKING:
     from tactile_push.mechanics import Support
-    from tactile_push.simulation import ObjectFile, RigConfig, Rollout
+    from tactile_push.simulation import ObjectFile, RigConfig
 
 
 def add(commands: Commands) -> None:
     """Add the command."""
     simulate = commands.add_parser(
         'simulate',
-        help='simulate one object under the control law or open loop',
-        description='Simulates a push of one object: mechanics and control law alone, no nodes. '
-        'The defaults are the case of figure 8 of the paper.',
+        help='simulate one object under a control law or open loop',
+        description='Simulates a push of one object, no nodes: with law push, the law (18), '
+        'mechanics and law alone; with another law by touch alone, with a sensor that errs by 0.3° '
+        'and a finger that lags by 0.1 s. The defaults are the case of figure 8 of the paper.',
         formatter_class=argparse.ArgumentDefaultsHelpFormatter,
     )
     option = simulate.add_argument
@@ -55,9 +55,17 @@ def add(commands: Commands) -> None:
         metavar='X|inf',
         help='friction at the finger (default: as the file of the object says, otherwise inf)',
     )
+    option(
+        '--law',
+        default='push',
+        choices=tuple(LAWS),
+        help='push brings theta to its desired angle by the law (18); steer carries the object '
+        'straight ahead at a place across the belt; settle brings theta to an angle by all that is '
+        'known',
+    )
     gain = number('a finite gain of 0 or more', 0.0, sys.float_info.max)
-    option('--kp', type=gain, default=KP, metavar='X', help='proportional gain [rad/rad]')
-    option('--kd', type=gain, default=KD, metavar='X', help='derivative gain [rad/rad]')
+    _optional(option, '--kp', type=gain, metavar='X', help='proportional gain [rad/rad]')
+    _optional(option, '--kd', type=gain, metavar='X', help='derivative gain [rad/rad]')
     edge = number('degrees between -90 and 90', -90.0, 90.0, closed=False)
     start = math.degrees(THETA_INITIAL)
     option('--theta0-deg', type=edge, default=start, metavar='DEG', help='edge angle at the start')
@@ -71,12 +79,31 @@ def add(commands: Commands) -> None:
         'otherwise the contact nearest to d = 0)',
     )
     ahead = number('degrees between 0 and 180', 0.0, 180.0, closed=False)
-    option('--phi0-deg', type=ahead, default=90.0, metavar='DEG', help='first push angle')
+    _optional(option, '--phi0-deg', type=ahead, metavar='DEG', help='first push angle')
     angle = number('degrees between -180 and 180', -180.0, 180.0)
-    wanted = math.degrees(THETA_DESIRED)
-    option('--theta-desired-deg', type=angle, default=wanted, metavar='DEG', help='desired angle')
+    _optional(option, '--theta-desired-deg', type=angle, metavar='DEG', help='desired angle')
+    option(
+        '--x-goal-mm',
+        type=length,
+        default=argparse.SUPPRESS,
+        metavar='MM',
+        help='where the centre of mass shall be across the belt, from where the finger starts, for '
+        'the law steer',
+    )
+    option(
+        '--theta-goal-deg',
+        type=edge,
+        default=argparse.SUPPRESS,
+        metavar='DEG',
+        help='angle that the edge shall have, for the law settle',
+    )
     option('--steps', type=steps, default=600, metavar='N', help='control periods of 0.1 s')
-    option('--open-loop', action='store_true', help='keep the first push angle')
+    option(
+        '--open-loop',
+        action='store_true',
+        default=argparse.SUPPRESS,
+        help='keep the first push angle',
+    )
     option(
         '--json',
         metavar='FILE|-',
@@ -93,42 +120,46 @@ def add(commands: Commands) -> None:
     simulate.set_defaults(run=_simulate)
 
 
+def _optional(option: Callable[..., Any], name: str, *, help: str, **how: Any) -> None:
+    """Add an option of law (18), of which it has to be known whether it was given."""
+    default = DEFAULTS[name.removeprefix('--').replace('-', '_')]
+    option(name, default=argparse.SUPPRESS, help=f'{help} (default: {default})', **how)
+
+
 def _simulate(options: argparse.Namespace) -> int:
     from rich.console import Console
 
     from tactile_push.cli.output import naming, write_json
-    from tactile_push.control import settle_step
 
+    check_law(options)
     json_file, plot = (getattr(options, name, None) for name in ('json', 'plot'))
     try:
         with Console(stderr=True).status('simulating (the first time, compiling)'):
-            run, config = _run(options)
-        settled = None
-        if run.end == 'done':
-            settled = settle_step(run.theta, math.radians(options.theta_desired_deg), TOLERANCE)
+            config = _config(options)
+            done = LAWS[options.law].run(options, config)
+        run = done.run
         if json_file is not None:
             with naming(json_file, '--json'):
-                write_json(json_file, _as_json(run, config, settled))
+                write_json(json_file, _as_json(done, config))
         if plot is not None:
             from tactile_push.figures import plot_history  # which loads matplotlib
 
-            wanted = math.radians(options.theta_desired_deg)
+            panel = run.theta, run.phi, done.theta_wanted, TOLERANCE, done.settled
             with naming(plot, '--plot'):
-                plot_history({'': (run.theta, run.phi, wanted, TOLERANCE, settled)}, [plot])
+                plot_history({'': panel}, [plot])
     except ValueError as error:
         raise Refused(error) from None
     if json_file != '-':
-        _print(run, config, settled, options.theta_desired_deg)
+        _print(done, config)
     if run.end != 'done':
         raise Refused(run.end, status=1)
     return 0
 
 
-def _run(options: argparse.Namespace) -> 'tuple[Rollout, RigConfig]':
-    """Simulate the run that the options ask for."""
-    from tactile_push.control import PushLaw
+def _config(options: argparse.Namespace) -> 'RigConfig':
+    """Return the rig that the options ask for."""
     from tactile_push.mechanics import Slider
-    from tactile_push.simulation import RigConfig, rollout
+    from tactile_push.simulation import RigConfig
 
     thing = _object(options.object)
     support, mu_c = thing.support, math.inf if thing.mu_c is None else thing.mu_c
@@ -144,46 +175,41 @@ def _run(options: argparse.Namespace) -> 'tuple[Rollout, RigConfig]':
     if hasattr(options, 'd0_mm'):
         d = options.d0_mm / 1000.0
     theta = math.radians(options.theta0_deg)
-    config = RigConfig(
+    return RigConfig(
         slider, getattr(options, 'mu_c', mu_c), theta, d, tip_turns=False
     )  # as in the equations
-    phi = math.radians(options.phi0_deg)
-    law = PushLaw(options.kp, options.kd, math.radians(options.theta_desired_deg))
-    if not options.open_loop and not law.phi_min <= phi <= law.phi_max:
-        raise ValueError(
-            f'phi: expected {law.phi_min} to {law.phi_max} rad, the bounds of the law, got {phi}'
-        )
-    law.reset(phi)
-    return rollout(config, phi if options.open_loop else law, options.steps), config
 
 
-def _as_json(run: 'Rollout', config: 'RigConfig', settled: int | None) -> dict[str, Any]:
+def _as_json(done: Simulated, config: 'RigConfig') -> dict[str, Any]:
     """Return arrays with a value for the start of every step, and what is true of the run."""
     from tactile_push.mechanics import MODES
 
+    run = done.run
     return {
         **{name: getattr(run, name).tolist() for name in ('theta', 'phi', 'd', 'x', 'y')},
         'mode': [MODES[mode] for mode in run.mode],
         'c': config.slider.c,
-        'settle_step': settled,
+        'settle_step': done.settled,
         'end': run.end,
+        **done.told,
     }
 
 
-def _print(run: 'Rollout', config: 'RigConfig', settled: int | None, wanted_deg: float) -> None:
+def _print(done: Simulated, config: 'RigConfig') -> None:
     from tactile_push.mechanics import MODES
 
+    run, settled = done.run, done.settled
     steps = len(run.theta) - 1
     counts = {name: int((run.mode[:steps] == mode).sum()) for mode, name in enumerate(MODES)}
     modes = ', '.join(f'{name} {count}' for name, count in counts.items() if count)
-    within = f'within {math.degrees(TOLERANCE):.0f}° of {wanted_deg:g}°'
     print(
         f'c          {1000.0 * config.slider.c:.2f} mm',
         f'steps      {steps} ({modes})' if modes else f'steps      {steps}',
-        f'settled    {"never" if settled is None else f"step {settled}"}, {within}',
+        f'settled    {"never" if settled is None else f"step {settled}"}, {done.near}',
         f'theta      {math.degrees(run.theta[0]):.2f}° -> {math.degrees(run.theta[-1]):.2f}°',
         f'phi        {math.degrees(run.phi[0]):.2f}° -> {math.degrees(run.phi[-1]):.2f}°',
         f'd          {1000.0 * run.d[0]:.3f} mm -> {1000.0 * run.d[-1]:.3f} mm',
+        *done.rows,
         sep='\n',
     )
 

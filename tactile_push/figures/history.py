@@ -24,7 +24,8 @@ def plot_history(
     ----------
     panels : mapping of str to tuple
         For each panel's title theta and phi [rad], shape (K + 1,) each, theta_d and the band's
-        half width [rad], and the step from which theta stays within the band, or None.
+        half width [rad], and the step from which theta stays within the band, or None. Where
+        theta_d is NaN there is no band, and the step is that of another settling.
     files : sequence of Path
         Where to write; the ending chooses the format.
     """
@@ -36,10 +37,11 @@ def plot_history(
     ):
         step = np.arange(np.size(theta))
         desired = np.degrees(theta_d)
-        axis.axhspan(
-            desired - np.degrees(band), desired + np.degrees(band), color='0.9', label='_band'
-        )
-        axis.axhline(desired, color='0.5', linewidth=0.8, linestyle=(0, (6, 3)))
+        if np.isfinite(desired):
+            axis.axhspan(
+                desired - np.degrees(band), desired + np.degrees(band), color='0.9', label='_band'
+            )
+            axis.axhline(desired, color='0.5', linewidth=0.8, linestyle=(0, (6, 3)))
         axis.plot(step, np.degrees(phi) - 90.0, color='C1', linewidth=2.4, label='φ − 90°')
         axis.plot(step, np.degrees(theta), color='C0', linewidth=1.0, label='θ')
         if settled is not None:

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """One object placed by touch alone, and its way there."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,18 +10,11 @@ from tactile_push import paper
 from tactile_push.control import Tick
 from tactile_push.control.placing.law import PlaceLaw
 from tactile_push.control.placing.model import Goal
-from tactile_push.estimation import ActiveSensing, FingerMotion, ObjectEstimator, edges_of
 from tactile_push.mechanics.compiled import Array
-from tactile_push.simulation.faults import Faults
+from tactile_push.simulation.by_touch import LAG, NOISE, check_edges, faults_of, sensing_of
 from tactile_push.simulation.placement import Placement, place
 from tactile_push.simulation.rig import Rig, RigConfig
 from tactile_push.simulation.rollout import Rollout
-from tactile_push.simulation.sensor import Sensor
-from tactile_push.simulation.servo import Servo
-
-NOISE, LAG = math.radians(0.3), 0.1  # of the readings of theta [rad] and of the finger [s]
-SHARE = 0.01  # standard deviation of l and r that the estimator is told, as a share
-SILENCE = 0.3  # without a reading for longer the estimate starts over [s]
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,20 +55,9 @@ def placed_run(config: RigConfig, goal: Goal, steps: int, seed: int = 0) -> Plac
     ValueError
         If the object has no straight edges.
     """
-    outline = config.slider.outline
+    check_edges(config, 'place')
     rows: list[tuple[float, ...]] = []
-    if (outline.pieces[:, 3:] > 0.0).all(axis=1).any():  # arcs have a length and a turn
-        raise ValueError('object: expected one with straight edges to place, got a round one')
-    estimator = ObjectEstimator(
-        edges_of(outline.points(math.inf))[:1],
-        NOISE,
-        l_share=SHARE,
-        radius=config.radius,
-        radius_share=SHARE,
-    )
-    sensing = ActiveSensing(
-        *(estimator, FingerMotion(LAG), config.belt_speed, SILENCE), radius=config.radius
-    )
+    sensing = sensing_of(config, NOISE, LAG)
     law = PlaceLaw(
         Goal(config.tip.x + goal.x, goal.theta),
         steps * paper.CONTROL_PERIOD * config.belt_speed,
@@ -89,7 +70,7 @@ def placed_run(config: RigConfig, goal: Goal, steps: int, seed: int = 0) -> Plac
         moved = rig.theta, tick.phi, rig.d, pose.x, pose.y, rig.mode
         rows.append((*moved, rig.finger_x, rig.finger_y))
 
-    faults = Faults(servo=Servo(time_constant=LAG), sensor=Sensor(NOISE))
+    faults = faults_of(NOISE, LAG)
     done = place(config, law, sensing=sensing, faults=faults, seed=seed, watch=watch)
     theta, phi, d, x, y, mode, finger_x, finger_y = np.array(rows).T
     run = Rollout(theta, phi, d, x, y, mode.astype(np.int64), done.end or 'done')

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """One object whose edge is brought to an angle by all that the pushes tell of it."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -10,18 +9,12 @@ import numpy as np
 from tactile_push import paper
 from tactile_push.control import PUSHING, PushControl
 from tactile_push.control.placing.settle_law import SettleLaw
-from tactile_push.estimation import ActiveSensing, FingerMotion, ObjectEstimator, edges_of
 from tactile_push.pipeline import Sensing
 from tactile_push.pipeline.belief import belief_of
+from tactile_push.simulation.by_touch import LAG, NOISE, check_edges, faults_of, sensing_of
 from tactile_push.simulation.experiment import control_periods
-from tactile_push.simulation.faults import Faults
 from tactile_push.simulation.rig import Rig, RigConfig
 from tactile_push.simulation.rollout import Rollout, check_time
-from tactile_push.simulation.sensor import Sensor
-from tactile_push.simulation.servo import Servo
-
-SHARE = 0.01  # standard deviation of l and r that the estimator is told, as a share
-SILENCE = 0.3  # without a reading for longer the estimate starts over [s]
 
 
 def settled_run(
@@ -29,8 +22,8 @@ def settled_run(
     theta: float,
     steps: int,
     *,
-    noise: float = math.radians(0.3),
-    lag: float = 0.1,
+    noise: float = NOISE,
+    lag: float = LAG,
     seed: int = 0,
 ) -> Rollout:
     """Bring an object's edge to an angle.
@@ -64,24 +57,9 @@ def settled_run(
     """
     period = paper.CONTROL_PERIOD
     check_time(steps, period)
-    outline = config.slider.outline
-    if (outline.pieces[:, 3:] > 0.0).all(axis=1).any():  # arcs have a length and a turn
-        raise ValueError('object: expected one with straight edges to settle, got a round one')
-    rig = Rig(
-        replace(config, tip_turns=True),
-        Faults(servo=Servo(time_constant=lag), sensor=Sensor(noise)),
-    )
-    estimator = ObjectEstimator(
-        edges_of(outline.points(math.inf))[:1],
-        noise,
-        l_share=SHARE,
-        radius=config.radius,
-        radius_share=SHARE,
-    )
-    sensing = ActiveSensing(
-        *(estimator, FingerMotion(lag), config.belt_speed, SILENCE), radius=config.radius
-    )
-    knows = Sensing(sensing, lambda k, _: k * period)
+    check_edges(config, 'settle')
+    rig = Rig(replace(config, tip_turns=True), faults_of(noise, lag))
+    knows = Sensing(sensing_of(config, noise, lag), lambda k, _: k * period)
     law = SettleLaw(theta, config.belt_speed, period, lag=lag)
     push = PushControl(law, config.belt_speed, period)
     rows: list[tuple[float, ...]] = []

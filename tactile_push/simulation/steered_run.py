@@ -2,18 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """One object that is steered across the belt to a goal."""
 
-import math
 from dataclasses import replace
 
 from tactile_push import paper
 from tactile_push.control import PushLaw, Steering
 from tactile_push.mechanics.contact import L_START
+from tactile_push.simulation.by_touch import LAG, NOISE, check_edges, faults_of
 from tactile_push.simulation.experiment import experiment
-from tactile_push.simulation.faults import Faults
 from tactile_push.simulation.rig import RigConfig
 from tactile_push.simulation.rollout import Rollout
-from tactile_push.simulation.sensor import Sensor
-from tactile_push.simulation.servo import Servo
 
 NEAR = 2e-3  # of the goal, within which the centre of mass counts as there [m]
 
@@ -24,8 +21,8 @@ def steered_run(
     steps: int,
     law: PushLaw | None = None,
     *,
-    noise: float = math.radians(0.3),
-    lag: float = 0.1,
+    noise: float = NOISE,
+    lag: float = LAG,
     seed: int = 0,
 ) -> Rollout:
     """Steer an object by its sensed angle and the finger's place alone.
@@ -56,12 +53,9 @@ def steered_run(
     ValueError
         If the object has no straight edges.
     """
-    outline = config.slider.outline
-    if (outline.pieces[:, 3:] > 0.0).all(axis=1).any():  # arcs have a length and a turn
-        raise ValueError('object: expected one with straight edges to steer, got a round one')
+    check_edges(config, 'steer')
     law = law or PushLaw(paper.KP, paper.KD, paper.THETA_DESIRED)
     l = float(config.body.path[0, L_START])
     steering = Steering(law, config.belt_speed, config.tip.x + goal, l, config.radius)
-    faults = Faults(servo=Servo(time_constant=lag), sensor=Sensor(noise))
     rig = replace(config, tip_turns=True)
-    return experiment(rig, law, steps, faults=faults, steadying=steering, seed=seed)
+    return experiment(rig, law, steps, faults=faults_of(noise, lag), steadying=steering, seed=seed)

@@ -124,3 +124,12 @@ def test_figures_need_no_display_and_leave_no_state_behind():
         "assert 'matplotlib.pyplot' not in sys.modules\n"
     )
     subprocess.run([sys.executable, '-c', program], check=True, timeout=60)
+
+
+def test_without_a_desired_angle_there_is_no_band_and_the_settling_is_marked(drawn):
+    plot_history({'steered': (THETA, PHI, math.nan, BAND, 3)}, ['history.png'])
+    (axis,) = drawn[0][0].axes
+    assert [*axis.patches] == []
+    marks = [line for line in axis.get_lines() if list(line.get_xdata()) == [3, 3]]
+    assert len(marks) == 1
+    assert np.isfinite(axis.get_ylim()).all()

@@ -1,0 +1,96 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""`tactile_push simulate --law`: what each law takes, and what is said of its run."""
+
+import json
+import math
+
+import pytest
+
+from tactile_push.simulation import steered_run as steering
+
+SETTLE, STEER = ('--law', 'settle', '--theta-goal-deg'), ('--law', 'steer', '--x-goal-mm')
+
+
+@pytest.fixture
+def simulated(command):
+    """Return a function that gives the JSON of a run."""
+
+    def run(*arguments):
+        status, out, err = command('simulate', *arguments, '--json', '-')
+        assert status == 0, err
+        return json.loads(out)
+
+    return run
+
+
+@pytest.mark.slow
+def test_settle_brings_theta_to_its_goal_from_figure_8s_start_by_step_50(simulated):
+    run = simulated(*SETTLE, -10, '--steps', 120)
+    assert run['end'] == 'done'
+    assert math.degrees(run['theta'][0]) == pytest.approx(20.0)
+    assert run['settle_step'] <= 50
+    assert all(abs(math.degrees(theta) + 10.0) <= 3.0 for theta in run['theta'][50:])
+
+
+@pytest.mark.slow
+def test_steer_says_from_when_on_the_centre_of_mass_is_near_its_goal(simulated, command):
+    arguments = *STEER, 0, '--steps', 800
+    run = simulated(*arguments)
+    first = run['settle_step']
+    assert 300 < first < 800
+    assert abs(run['x'][first - 1]) > 0.002
+    assert all(abs(x) <= 0.002 for x in run['x'][first:])
+    status, out, _ = command('simulate', *arguments)
+    assert status == 0
+    assert f'settled    step {first}, within 2 mm of x = 0 mm\n' in out
+    # Figure 8's start: the finger at the origin, 37.25 mm from the centre along n and -6 along t.
+    assert (
+        f'x          {-37.25 * math.sin(math.radians(20)) + 6 * math.cos(math.radians(20)):.2f} '
+        in out
+    )
+
+
+def test_the_gains_of_law_18_are_those_of_steer(simulated, monkeypatch):
+    laws = []
+    steered_run = steering.steered_run
+
+    def run(config, goal, steps, law):
+        laws.append((goal, law.kp, law.kd))
+        return steered_run(config, goal, steps, law)
+
+    monkeypatch.setattr(steering, 'steered_run', run)
+    simulated(*STEER, -12.5, '--steps', 2, '--kp', 0.1, '--kd', 6)
+    simulated(*STEER, 3, '--steps', 2)
+    assert laws == [(-0.0125, 0.1, 6.0), (0.003, 0.05, 5.0)]
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'refusal'),
+    [
+        (('--law', 'steer'), '--law: expected --x-goal-mm with steer, got none'),
+        (('--law', 'settle'), '--law: expected --theta-goal-deg with settle, got none'),
+        ((*STEER, 0, '--theta-desired-deg', -10), '--theta-desired-deg: expected --law push, got '),
+        ((*STEER, 0, '--phi0-deg', 90), '--phi0-deg: expected --law push, got steer'),
+        ((*STEER, 0, '--open-loop'), '--open-loop: expected --law push, got steer'),
+        ((*SETTLE, 0, '--kd', 5), '--kd: expected --law push or steer, got settle'),
+        (('--x-goal-mm', 0), '--x-goal-mm: expected --law'),
+        (('--theta-goal-deg', 0), '--theta-goal-deg: expected --law'),
+        ((*SETTLE, 0, '--object', 'disk'), 'object: expected one with straight edges to settle'),
+        ((*STEER, 0, '--object', 'disk'), 'object: expected one with straight edges to steer'),
+        (('--law', 'shove'), "argument --law: invalid choice: 'shove'"),
+        ((*STEER, 'nan'), 'argument --x-goal-mm: expected millimetres, got nan'),
+        ((*SETTLE, 90), 'argument --theta-goal-deg: expected degrees between -90 and 90, got 90'),
+    ],
+)
+def test_what_makes_no_sense_is_refused_in_one_line(command, arguments, refusal):
+    status, out, err = command('simulate', *arguments)
+    assert (status, out) == (2, '')
+    assert refusal in err.splitlines()[-1]
+
+
+def test_a_finger_that_stops_is_a_failure_with_its_reason(command):
+    # No angle holds the block so far to the right, and on the way there it reaches the end.
+    status, _, err = command('simulate', *STEER, -44, '--theta0-deg', 40, '--steps', 300)
+    assert status == 1
+    assert err.endswith('tactile_push simulate: workspace limit\n')
