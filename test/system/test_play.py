@@ -93,16 +93,16 @@ def pushes(states: list[Any]) -> tuple[np.ndarray, np.ndarray, int]:
 
 
 def extrapolated_by(joint_states: list[Any], key: tuple[int, int]) -> float:
-    """Give the most by which a contact may differ that knew one joint state more or less [rad].
+    """Give the most by which a contact may differ that knew other joint states [rad].
 
-    That is all that may differ: a joint state that overtakes its reading, or is overtaken, decides
-    whether the tip's angle is extrapolated. It then goes on by a step of the joints at the most,
-    in place of the one that they made.
+    That is all that may differ: joint states that overtake their reading, or are overtaken, decide
+    for how long the tip's angle is extrapolated. That is 0.1 s at the most, over which it goes on
+    by as much as it turned in 0.1 s before, in place of the turn that it made.
     """
-    at = np.array([seconds(m) for m in joint_states])
+    ago = key[0] + 1e-9 * key[1] - np.array([seconds(m) for m in joint_states])
     turned = np.array([sum(m.position) for m in joint_states])
-    near = turned[np.abs(at - (key[0] + 1e-9 * key[1])) < 0.11]  # two steps of the joints
-    return 2.0 * float(np.abs(np.diff(near)).max()) + 1e-12
+    near = turned[(ago < 0.2 + 1e-6) & (ago > -0.05 - 1e-6)]  # and to the next one
+    return float(np.abs(np.diff(near)).sum()) + 1e-12
 
 
 def times_of(diagnostics: list[DiagnosticArray]) -> list[tuple[str, int]]:
