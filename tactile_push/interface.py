@@ -341,7 +341,7 @@ TOPICS = {
             'where to let go, in `finger_base`: `position.x` is where the centre of mass is to be '
             'across the belt [m], the yaw is theta of the pushed edge [rad]',
         ),
-        Topic(PLACE_STATE, JOINT_STATE_TYPE, (PUSH_CONTROLLER,), (),
+        Topic(PLACE_STATE, JOINT_STATE_TYPE, (PUSH_CONTROLLER,), PLANTS,
             'what becomes of the goal, in each control period with the law `place`; stamped as '
             '`push_controller/state`; NaN is unknown',
             (
@@ -371,7 +371,7 @@ TOPICS = {
                 Field('turning', 'rad/m', 'by how much the finger tip turns for its way'),
             ),
         ),
-        Topic(PLACE_RELEASE, BOOL_TYPE, (PUSH_CONTROLLER,), ('the finger',),
+        Topic(PLACE_RELEASE, BOOL_TYPE, (PUSH_CONTROLLER,), ('the finger', *PLANTS),
             'true at the moment to let the object go, false when the finger is to be down again',
         ),
         Topic(TRUE_POSE, POSE_TYPE, PLANTS, (LIVE_PAGE,),

@@ -4,6 +4,7 @@
 
 import math
 
+ROUNDING = 1e-6  # by which a stamp may be off the number that it stands for [s]
 LONGEST_LOOK = 0.01  # more wall time between two looks does not count [s]: nobody looked
 
 
@@ -12,8 +13,10 @@ class Pace:
 
     Simulated time waits for the next command when it is due, and for a contact with the stamp of
     the last reading, because a driver that reads late would stamp it with a later time. If a servo
-    moves the joints, it waits for the answer to the last joint states and the last command, too. So
-    a loaded machine makes an experiment slower, not different. Time does not wait for the contact
+    moves the joints, it waits for the answer to the last joint states and the last command, too. If
+    objects are placed, it waits for what a control period has decided, and stops when an object is
+    due to be let go until that is said. So a loaded machine makes an experiment slower, not
+    different. Time does not wait for the contact
     of a reading that is lost, reports no contact or is an outlier: none need follow. A contact may
     be stamped earlier than its reading by `lag`, as by a sensor node that filters. After `patience`
     of wall time it no longer waits for what is overdue, until that comes again: whoever sends it
@@ -38,6 +41,8 @@ class Pace:
         self._contact_overdue = False
         self._dated_command = math.nan  # stamp of the last command, if it can be one [s]
         self._answered = math.nan, math.nan  # joint states and command [s]; not waited for
+        self._decided = math.nan  # control period of the last decision [s]; not waited for
+        self._release = math.nan  # when an object is let go [s]; not waited for
 
     @property
     def contact_overdue(self) -> bool:
@@ -71,6 +76,20 @@ class Pace:
         """Take note that a servo has answered joint states and a command of these stamps [s]."""
         self._answered = joint_states, command
 
+    def decision(self, stamp: float, let_go_in: float) -> None:
+        """Take note of what a control period decided: when to let go, after it [s]; NaN if not."""
+        self._decided = stamp
+        if math.isfinite(let_go_in):
+            self._release = stamp + let_go_in + ROUNDING
+
+    def released(self) -> None:
+        """Take note that the finger was told to let go."""
+        self._release = math.nan
+
+    def stop_before(self, now: float, time: float) -> float:
+        """Return where time has to stop on its way to `time` [s], which it is itself if nowhere."""
+        return self._release if now < self._release < time else time
+
     def may_reach(self, time: float, step: float, wall: float) -> bool:
         """Decide at the wall time `wall` [s] whether simulated time may step on to `time` [s]."""
         if wall < self._next_wall:
@@ -82,7 +101,8 @@ class Pace:
         answer_overdue = (
             joint_states < time - 1.5 * step or command < self._dated_command - step / 2.0
         )
-        if command_overdue or self._contact_overdue or answer_overdue:
+        decision_overdue = self._decided < self._dated_command - step / 2.0 or time > self._release
+        if command_overdue or self._contact_overdue or answer_overdue or decision_overdue:
             longest = max(LONGEST_LOOK, step / self._factor)
             self._held += min(max(wall - self._looked, 0.0), longest)
             self._looked = wall
@@ -94,6 +114,8 @@ class Pace:
                 self._contact = math.nan
             if answer_overdue:
                 self._answered = math.nan, math.nan
+            if decision_overdue:
+                self._decided = self._release = math.nan
         self._held, self._looked = 0.0, math.inf
         self._contact_overdue = False
         looping = self.commanded and not math.isnan(self._contact)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """When simulated time may go on, with wall time played by the test."""
 
+import math
 import random
 
 import pytest
@@ -375,3 +376,60 @@ def test_time_does_not_wait_for_a_servo_that_has_gone_or_never_was():
             loop.poll()
             loop.wall += 0.001
     assert loop.wall - loop.start < 2.0 / 10.0 + PATIENCE + 0.4
+
+
+def test_time_stops_at_the_moment_of_a_release_until_it_is_said():
+    loop = Loop(1.0)
+    run_to(loop, 1.0)
+    pace = loop.pace
+    pace.command(1.0, 1.0)
+    pace.decision(1.0, 0.033)
+    assert pace.stop_before(1.0, 1.02) == 1.02
+    run_to(loop, 1.02)
+    moment = pace.stop_before(1.02, 1.04)
+    # No earlier, as a clock that is a nanosecond short wakes nobody.
+    assert 1.033 < moment < 1.033 + 1e-5
+    loop.wall += 1.01 * STEP
+    assert pace.may_reach(moment, STEP, loop.wall)
+    assert pace.stop_before(moment, 1.04) == 1.04
+    assert is_held(loop)
+    assert is_held(loop)
+    pace.released()
+    run_to(loop, 1.0 + PERIOD)
+
+
+def test_time_that_has_passed_a_release_stands_until_it_is_said():
+    loop = Loop(1.0)
+    run_to(loop, 1.04)
+    loop.pace.command(1.0, 1.04)
+    loop.pace.decision(1.0, 0.033)
+    assert loop.pace.stop_before(1.04, 1.06) == 1.06
+    assert is_held(loop)
+    loop.pace.released()
+    run_to(loop, 1.06)
+
+
+def test_a_command_does_not_count_before_what_its_period_decided():
+    loop = Loop(1.0)
+    run_to(loop, 1.0)
+    loop.pace.decision(1.0, math.nan)
+    loop.pace.command(1.0, 1.0)
+    run_to(loop, 1.0 + PERIOD)
+    loop.pace.command(1.0 + PERIOD, loop.time)
+    assert is_held(loop)
+    loop.pace.decision(1.0 + PERIOD, math.nan)
+    run_to(loop, 1.0 + 2.0 * PERIOD)
+
+
+@pytest.mark.parametrize('let_go_in', [math.nan, 0.033])
+def test_time_does_not_wait_for_decisions_of_a_controller_that_has_gone(let_go_in):
+    loop = Loop(10.0)
+    loop.close()
+    loop.pace.decision(0.0, let_go_in)
+    loop.poll_for(2.0 * PATIENCE + 0.5)
+    before, start = loop.time, loop.wall
+    while loop.time < before + 1.0:
+        loop.close()
+        loop.poll()
+        loop.wall += 0.001
+    assert loop.wall - start < 1.0 / 10.0 + PATIENCE + 0.2

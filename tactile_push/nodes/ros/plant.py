@@ -17,7 +17,7 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64MultiArray
+from std_msgs.msg import Bool, Float64MultiArray
 from visualization_msgs.msg import MarkerArray
 
 from tactile_push.devices import Sentence, encode
@@ -28,6 +28,8 @@ from tactile_push.interface import (
     JOINT_STATES,
     JOINT_VELOCITIES,
     MARKERS,
+    PLACE_RELEASE,
+    PLACE_STATE,
     SERVO_COMMANDS,
     SERVO_STATE,
     TOPICS,
@@ -111,6 +113,7 @@ class PlantNode(Node, Generic[P]):
         self._sequence = 0
         self._awaited: Reading | None = None  # the last reading, if a contact has to follow
         self._time = 0.0
+        self._gone = 0.0  # of a step, where time had to stop on its way [s]
         self._last_wall = time.monotonic()
         self._last_clock = self._last_wall
         self._commanders = 0
@@ -126,6 +129,8 @@ class PlantNode(Node, Generic[P]):
         if p.publish_clock:
             self._clock_publisher = self.create_publisher(Clock, CLOCK, 10)
             self.create_subscription(PoseStamped, CONTACT, self._on_contact, FRESHEST)
+            self.create_subscription(JointState, PLACE_STATE, self._on_place_state, 10)
+        self.create_subscription(Bool, PLACE_RELEASE, self._on_release, 10)
         self._hear_commands(p)
         steady_clock = NodeClock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(self._period / p.real_time_factor, self._on_timer, clock=steady_clock)
@@ -201,6 +206,23 @@ class PlantNode(Node, Generic[P]):
         self._pace.contact(_seconds(message))
         self._on_timer()
 
+    def _on_place_state(self, message: JointState) -> None:
+        let_go_in = by_name(message.name, message.position).get('let_go_in', math.nan)
+        self._pace.decision(_seconds(message), let_go_in)
+        self._on_timer()
+
+    def _on_release(self, message: Bool) -> None:
+        """Lift the finger off the object, or put it down at the next one."""
+        if self._clock_publisher is None:
+            self._move(self._real_time())
+        if message.data:
+            self._rig.lift()
+            self._pace.released()
+        else:
+            self._rig.put_down()
+        if self._clock_publisher is not None:
+            self._on_timer()
+
     def _on_timer(self) -> None:
         if self._clock_publisher is None:
             self._step(self._real_time())
@@ -208,12 +230,20 @@ class PlantNode(Node, Generic[P]):
             return
         wall = time.monotonic()
         was_commanded = self._pace.commanded
-        if self._pace.may_reach(self._time + self._period, self._period, wall):
+        whole = self._time + self._period - self._gone
+        reached = self._pace.stop_before(self._time, whole)
+        if self._pace.may_reach(reached, self._period, wall):
             if was_commanded and not self._pace.commanded:
                 self._commanded.expire()
             self._last_clock = wall
-            self._step(self._period)
-            self._read()
+            if reached < whole:
+                self._gone += reached - self._time
+                self._move(reached - self._time)
+                self._publish_clock()
+            else:
+                self._step(self._period - self._gone)
+                self._gone = 0.0
+                self._read()
         elif wall - self._last_clock > REPEAT_PERIOD:
             # Time may stand still because a message was lost or a reading got an old stamp.
             self._last_clock = wall
@@ -336,6 +366,8 @@ class PlantNode(Node, Generic[P]):
             return WARN, f'several publishers of {self._topic}'
         if not self._commanded.started:
             return OK, 'belt stands, waiting for the first command'
+        if self._rig.lifted:
+            return OK, 'finger lifted'
         if not self._rig.touching:
             return WARN, 'finger does not touch the object'
         return OK, 'pushing'

@@ -9,7 +9,7 @@ from geometry_msgs.msg import PoseStamped, TwistStamped, WrenchStamped
 from rclpy.parameter import Parameter as RosParameter
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64MultiArray
+from std_msgs.msg import Bool, Float64MultiArray
 
 from tactile_push.devices.device import Device
 from tactile_push.devices.stream import SentenceStream
@@ -17,6 +17,8 @@ from tactile_push.interface import (
     CLOCK,
     COMMAND,
     JOINT_STATES,
+    PLACE_RELEASE,
+    PLACE_STATE,
     SERVO_COMMANDS,
     TOPICS,
     TRUE_POSE,
@@ -144,6 +146,73 @@ def test_joint_velocities_move_the_finger_until_others_come(bench, plant):
     assert bench.health == (OK, 'pushing')
     velocities.publish(Float64MultiArray(data=[1.0]))
     bench.until(lambda: node._counts['commands of another size'])
+
+
+def test_a_release_lifts_the_finger_and_puts_it_down_at_the_next_object(bench, plant):
+    plant(command_timeout=10.0, theta_initial=0.25, d_initial=0.004)
+    bench.hear(JointState, TRUE_STATE)
+    heard = bench.heard[TRUE_STATE]
+    release = bench.publisher(Bool, PLACE_RELEASE)
+    release.publish(Bool(data=False))  # which it is
+    bench.publisher(TwistStamped, COMMAND).publish(command(0.004))
+    bench.until(lambda: heard and abs(bench.values(TRUE_STATE)['theta'] - 0.25) > 5e-3)
+    release.publish(Bool(data=True))
+    bench.until(lambda: bench.values(TRUE_STATE)['lifted'])
+    placed = bench.values(TRUE_STATE)
+    assert math.isnan(placed['theta'])
+    assert bench.health == (OK, 'finger lifted')
+    bench.until(lambda: bench.values(TRUE_STATE)['finger_x'] > placed['finger_x'] + 2e-4)
+    after = bench.values(TRUE_STATE)
+    for name in ('object_x', 'edge_angle'):
+        assert after[name] == pytest.approx(placed[name])
+    seen = len(heard)
+    release.publish(Bool(data=False))
+    bench.until(lambda: not bench.values(TRUE_STATE)['lifted'])
+    down = (dict(zip(m.name, m.position, strict=True)) for m in heard[seen:])
+    touched = next(values for values in down if not values['lifted'])
+    # As at the start, but for the way of the belt since.
+    assert (touched['theta'], touched['d']) == pytest.approx((0.25, 0.004), abs=2e-3)
+
+
+def test_published_time_stops_where_an_object_is_let_go(bench, plant):
+    node = plant(
+        **{'publish_clock': True, 'sensor_rate': 50.0, 'command_timeout': 10.0},
+        **{'theta_initial': 0.0, 'd_initial': 0.0},
+    )
+    bench.hear(Clock, CLOCK)
+    bench.hear(PoseStamped, TRUE_POSE)
+    clocks, poses = bench.heard[CLOCK], bench.heard[TRUE_POSE]
+    commands = bench.publisher(TwistStamped, COMMAND)
+    decisions = bench.publisher(JointState, PLACE_STATE)
+    release = bench.publisher(Bool, PLACE_RELEASE)
+
+    def wait():
+        """Wait until time is published again and again and stands, and return it [s]."""
+        bench.until(lambda: len(clocks) > 5 and all(one == clocks[-1] for one in clocks[-6:]))
+        return clocks[-1].clock.sec + clocks[-1].clock.nanosec * 1e-9
+
+    ahead = command(0.0)
+    bench.until(lambda: clocks)
+    ahead.header.stamp = clocks[-1].clock
+    commands.publish(ahead)
+    due = wait()
+    decision = JointState(name=['let_go_in'], position=[0.051])
+    decision.header.stamp = ahead.header.stamp = clocks[-1].clock
+    decisions.publish(decision)
+    bench.until(lambda: node._pace.stop_before(due, due + 1.0) < due + 1.0)
+    commands.publish(ahead)
+    bench.until(lambda: clocks[-1].clock != decision.header.stamp)
+    let_go = wait()
+    assert let_go == pytest.approx(due + 0.051, abs=2e-6)
+    release.publish(Bool(data=True))
+    seen = len(poses)
+    bench.until(lambda: len(poses) > seen)
+    pose = poses[seen]
+    sec, nanosec = stamp_of(pose)
+    # The finger has carried the object straight ahead up to then; now the belt carries it back.
+    gone = sec + nanosec * 1e-9 - let_go
+    assert 0.0 < gone < 0.02
+    assert pose.pose.position.y == pytest.approx(0.0135 + 0.02375 - 0.005 * gone, abs=1e-9)
 
 
 def test_published_time_grows_by_the_sensors_period(bench, plant):
