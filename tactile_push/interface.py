@@ -337,11 +337,11 @@ TOPICS = {
             'guaranteed interval; published while somebody subscribes',
             recorded=False,
         ),
-        Topic(PLACE_GOAL, POSE_TYPE, ('your node',), (PUSH_CONTROLLER,),
+        Topic(PLACE_GOAL, POSE_TYPE, (EXPERIMENT, 'your node'), (PUSH_CONTROLLER,),
             'where to let go, in `finger_base`: `position.x` is where the centre of mass is to be '
             'across the belt [m], the yaw is theta of the pushed edge [rad]',
         ),
-        Topic(PLACE_STATE, JOINT_STATE_TYPE, (PUSH_CONTROLLER,), PLANTS,
+        Topic(PLACE_STATE, JOINT_STATE_TYPE, (PUSH_CONTROLLER,), (EXPERIMENT, *PLANTS),
             'what becomes of the goal, in each control period with the law `place`; stamped as '
             '`push_controller/state`; NaN is unknown',
             (

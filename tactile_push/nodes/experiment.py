@@ -1,17 +1,22 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Conducts an experiment: starts the controller once all is recorded, and ends after N steps."""
+"""Conducts an experiment: starts the controller once all is recorded, and ends after N steps.
+
+It may give goals to place objects at, and then ends after the last one.
+"""
 
 import sys
 import time
 from contextlib import ExitStack
 
+from geometry_msgs.msg import PoseStamped
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
 from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 from rclpy.node import Node
 from rclpy.task import Future
+from sensor_msgs.msg import JointState
 
 from tactile_push.bags import BagWriter
 from tactile_push.interface import (
@@ -30,9 +35,16 @@ from tactile_push.interface import (
     SERVO_STATE,
     WRENCH,
 )
+from tactile_push.nodes.ros.messages import publish
 from tactile_push.nodes.ros.parameters import ConfigurationError, declare, refusing
 from tactile_push.nodes.ros.process import run
+from tactile_push.nodes.ros.qos import PUBLISHED
 from tactile_push.parameters import ExperimentParameters
+from tactile_push.parameters.experiment import goals
+from tactile_push.pipeline import by_name
+from tactile_push.pipeline.goals import GoalsInTurn
+from tactile_push.pipeline.messages import place_goal_fields
+from tactile_push.pipeline.stamps import stamp_of
 from tactile_push.recording.recording import Recording
 
 # Without these recorded from the beginning no experiment starts.
@@ -43,6 +55,7 @@ AWAITED = tuple(topic for topic in RECORDED if topic not in (CLOCK, PARAMETER_EV
 # busy machine active_sensing could miss the first control periods. Picked: on one machine nodes
 # find each other within it [s].
 SETTLED = 1.0
+AFTERWARDS = 10  # steps that are recorded after the last goal: how the object lies; picked
 LOOK_PERIOD = 0.05  # at the recorder and the answers [s]; short beside the start of a node
 
 
@@ -59,6 +72,8 @@ class Experiment(Node):
         self._settings = declare(self, ExperimentParameters)
         if not self._settings.bag:
             raise ConfigurationError("parameter bag: expected a new folder, got ''")
+        with refusing():
+            self._goals = GoalsInTurn(goals(self._settings))
         with refusing('bag'):
             writer = BagWriter(self._settings.bag)
         self._recording = Recording(self, RECORDED, writer)
@@ -67,7 +82,12 @@ class Experiment(Node):
         self._transitions = [Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_ACTIVATE]
         self._answer: Future | None = None
         self._steps = 0
+        self._last_step = self._settings.steps
         self._ready_at: float | None = None  # from when on, by a clock that cannot be set [s]
+        self._gives = False  # whether a goal was given
+        if not self._goals.done:
+            self._goal = self.create_publisher(PoseStamped, PLACE_GOAL, PUBLISHED)
+            self.create_subscription(JointState, PLACE_STATE, self._on_place_state, PUBLISHED)
         steady_clock = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = self.create_timer(LOOK_PERIOD, self._look, clock=steady_clock)
 
@@ -87,7 +107,7 @@ class Experiment(Node):
 
     def _advance_transition(self) -> None:
         activating = self._transitions[0] != Transition.TRANSITION_CONFIGURE
-        if activating and not self._settled():
+        if activating and not self._settled(self._ready()):
             return
         if self._answer is None and self._controller.service_is_ready():
             request = ChangeState.Request(transition=Transition(id=self._transitions[0]))
@@ -99,12 +119,24 @@ class Experiment(Node):
             self.get_logger().error('push_controller refused to start')
             self.context.shutdown()
         self._answer = None
+        self._ready_at = None
         self._transitions.pop(0)
 
-    def _settled(self) -> bool:
+    def _on_place_state(self, message: JointState) -> None:
+        heard = map(self._somebody_takes, (PLACE_GOAL, PLACE_RELEASE, SENSING_STATE))
+        if self._transitions or not (self._gives or self._settled(all(heard))):
+            return
+        goal = self._goals.state(by_name(message.name, message.position))
+        if goal is not None:
+            self._gives = True
+            publish(self._goal, place_goal_fields(stamp_of(message), *goal))
+        elif self._goals.done:
+            self._last_step = min(self._last_step, self._steps + AFTERWARDS)
+
+    def _settled(self, ready: bool) -> bool:
         """Return whether all has been ready for so long that the nodes have found each other."""
         now = time.monotonic()
-        if not self._ready():
+        if not ready:
             self._ready_at = None
         elif self._ready_at is None:
             self._ready_at = now
@@ -136,7 +168,7 @@ class Experiment(Node):
         if steps != self._steps:
             self._steps = steps
             print(steps, flush=True)
-        if steps > self._settings.steps:
+        if steps > self._last_step:
             self.context.shutdown()
 
 

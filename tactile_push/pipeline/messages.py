@@ -61,6 +61,11 @@ def pose_fields(stamp: Stamp, x: float, y: float, yaw: float) -> Fields:
     return {'header': _header(stamp, FINGER_DISK), 'pose': _pose(x, y, yaw)}
 
 
+def place_goal_fields(stamp: Stamp, x: float, theta: float) -> Fields:
+    """Return the fields of a goal in `finger_base`: the centre of mass [m] and the edge [rad]."""
+    return {'header': _header(stamp, FINGER_BASE), 'pose': _pose(x, 0.0, theta)}
+
+
 def command_fields(stamp: Stamp, v_x: float) -> Fields:
     """Return the fields of a TwistStamped: the finger's velocity across the belt [m/s]."""
     return {'header': _header(stamp, FINGER_BASE), 'twist': {'linear': {'x': v_x}}}

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The experiment's node: how it starts the controller, and what it does not begin with."""
 
+import math
 from types import SimpleNamespace
 
 import pytest
@@ -10,11 +11,23 @@ from geometry_msgs.msg import PoseStamped
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState
 from sensor_msgs.msg import JointState
+from std_msgs.msg import Bool
 
 from tactile_push.bags import BagReader
-from tactile_push.interface import CONTACT, LIVE_PAGE, RECORDED, SERVO_STATE, TACTILE
+from tactile_push.control.placing.stages import MISSED, NO_GOAL, RELEASED, STAGES
+from tactile_push.interface import (
+    CONTACT,
+    LIVE_PAGE,
+    PLACE_GOAL,
+    PLACE_RELEASE,
+    PLACE_STATE,
+    RECORDED,
+    SENSING_STATE,
+    SERVO_STATE,
+    TACTILE,
+)
 from tactile_push.nodes import experiment
-from tactile_push.nodes.experiment import AWAITED, MORE, SETTLED, Experiment
+from tactile_push.nodes.experiment import AFTERWARDS, AWAITED, MORE, SETTLED, Experiment
 from tactile_push.nodes.ros.parameters import ConfigurationError
 
 
@@ -65,13 +78,13 @@ def test_the_controller_is_activated_once_all_has_been_ready_for_a_while(
     ready, now = True, 100.0
     monkeypatch.setattr(node, '_ready', lambda: ready)
     monkeypatch.setattr(experiment, 'time', SimpleNamespace(monotonic=lambda: now))
-    assert not node._settled()
+    assert not node._settled(node._ready())
     now, ready = 100.0 + SETTLED, False  # somebody has left again
-    assert not node._settled()
+    assert not node._settled(node._ready())
     ready = True
-    assert not node._settled()
+    assert not node._settled(node._ready())
     now += SETTLED - 0.01
-    assert not node._settled()
+    assert not node._settled(node._ready())
     assert controller.asked == [Transition.TRANSITION_CONFIGURE]
     now += 0.02
     bench.until(lambda: node._transitions == [])
@@ -119,6 +132,45 @@ def test_steps_are_told_and_the_last_one_ends_the_experiment(bench, tmp_path, ca
         node._look()
     assert not node.context.ok()
     assert capsys.readouterr().out.split() == ['1', '3', '4']
+
+
+def test_goals_are_given_in_turn_and_the_run_ends_a_little_after_the_last(
+    bench, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(experiment, 'SETTLED', 0.0)
+    node = bench.start(Experiment, bag=tmp_path / 'bag', goals=['-0.05 0.1', '-0.06 -0.2'])
+    states = bench.publisher(JointState, PLACE_STATE)
+    bench.hear(PoseStamped, PLACE_GOAL)
+    bench.hear(Bool, PLACE_RELEASE)
+    bench.hear(JointState, SENSING_STATE)
+    given = bench.heard[PLACE_GOAL]
+
+    def until(condition, stage, goals):
+        message = JointState(name=['stage', 'goals', 'refused'])
+        message.position = [float(STAGES.index(stage)), float(goals), 0.0]
+        bench.until(condition, lambda: states.publish(message))
+
+    until(lambda: node._recording.recorder.counts['/place/state'], NO_GOAL, 0)
+    assert given == []  # the controller does not run yet
+    node._transitions.clear()  # as once it does
+    until(lambda: given, NO_GOAL, 0)
+    until(lambda: len(given) == 2, RELEASED, 1)
+    places = [(goal.pose.position.x, goal.pose.orientation.z) for goal in given]
+    assert places == [(-0.05, math.sin(0.05)), (-0.06, pytest.approx(math.sin(-0.1)))]
+    assert {goal.header.frame_id for goal in given} == {'finger_base'}
+    until(lambda: node._goals.done, MISSED, 2)
+    counts = node._recording.recorder.counts
+    for steps in range(AFTERWARDS + 2):
+        assert node.context.ok()
+        counts['/finger/cmd_vel'] = counts['/active_sensing/state'] = steps
+        node._look()
+    assert not node.context.ok()
+
+
+def test_a_goal_that_is_no_two_numbers_is_refused(bench, tmp_path):
+    with pytest.raises(ConfigurationError, match="goals: expected texts of two numbers.*'here'"):
+        bench.start(Experiment, bag=tmp_path / 'bag', goals=['here'])
+    assert not (tmp_path / 'bag').exists()
 
 
 def test_a_bag_without_a_name_is_refused(bench):

@@ -39,6 +39,15 @@ def test_contact_is_a_pose_turned_about_z_in_the_frame_of_the_finger(theta, z, w
     assert fields['pose']['orientation'] == pytest.approx({'z': z, 'w': w})
 
 
+def test_a_goal_is_a_pose_turned_about_z_in_the_frame_of_the_machine():
+    fields = messages.place_goal_fields(STAMP, -0.05, math.pi / 2.0)
+    assert fields['header'] == header('finger_base')
+    assert fields['pose']['position'] == {'x': -0.05, 'y': 0.0}
+    assert fields['pose']['orientation'] == pytest.approx(
+        {'z': math.sqrt(0.5), 'w': math.sqrt(0.5)}
+    )
+
+
 def test_command_is_a_velocity_across_the_belt():
     assert messages.command_fields(STAMP, 0.002) == {
         'header': header('finger_base'),
