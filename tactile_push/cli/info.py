@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""`tactile_push info`: what is in a bag, and how well the finger pushed."""
+"""`tactile_push info`: what is in a bag, how well the finger pushed, and what became of goals."""
 
 import argparse
 import json
@@ -10,7 +10,7 @@ from datetime import datetime, timezone
 from typing import TYPE_CHECKING
 
 from tactile_push.cli.arguments import BAG, Commands, number
-from tactile_push.interface import CLOCK, PUSH_CONTROLLER
+from tactile_push.interface import CLOCK, PLACE_GOAL, PUSH_CONTROLLER
 from tactile_push.paper import TOLERANCE
 
 if TYPE_CHECKING:
@@ -30,7 +30,8 @@ def add(commands: Commands) -> None:
         'info',
         help='say what is in a bag, and how well the finger pushed',
         description='Says what is in a bag: files, topics, rates, gaps, the parameters of the '
-        "experiment, and the paper's figures of merit if the controller's states are there.",
+        "experiment, the paper's figures of merit if the controller's states are there, and what "
+        'became of goals to place objects at.',
     )
     option = info.add_argument
     option('bag', **BAG)
@@ -65,7 +66,7 @@ def _print(info: 'BagInfo') -> None:
     from rich.table import Table
 
     from tactile_push.cli.output import shown, wide_console
-    from tactile_push.report.outcome import fixed
+    from tactile_push.report.outcome import fixed, goal_table
 
     console = wide_console()
     head = Table.grid(padding=(0, 2))
@@ -98,6 +99,8 @@ def _print(info: 'BagInfo') -> None:
     console.print(topics)
     for namespace, figures in info.pushes.items():
         _print_push(console, namespace, figures)
+    for namespace, goals in info.goals.items():
+        console.print(goal_table(goals, f'{shown(namespace)}/{PLACE_GOAL}'))
     _print_parameters(console, info)
     for remark in info.remarks:
         console.print(shown(remark), highlight=False)

@@ -20,6 +20,7 @@ from tactile_push.interface import (
     GEOMETRY_STATE,
     JOINT_STATE_TYPE,
     OBJECT_POSE,
+    PLACE_STATE,
     SENSING_STATE,
     TACTILE,
     TOPICS,
@@ -41,6 +42,7 @@ SHOWN = (
     TACTILE,
     CONTACT,
     OBJECT_POSE,
+    PLACE_STATE,
 )
 # What is taken of their JointState messages: of those that are as fast as the sensor no more than
 # is shown.

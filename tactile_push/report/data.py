@@ -52,6 +52,9 @@ class Run:
     scene: Scene
     facts: Sequence[str] = ()  # about the bag as a whole
     outcome: Sequence[tuple[str, str, str]] = ()  # figures of merit: what, its value, the paper's
+    # What became of each goal to place an object at, as cells of a row
+    goals: Sequence[tuple[str, ...]] = ()
+    drawings: Sequence[tuple[str, str]] = ()  # of the placed objects: title and SVG
     # Topics and parameters by title
     tables: Mapping[str, Sequence[tuple[str, ...]]] = field(default_factory=dict)
     warnings: Sequence[str] = ()  # what is wrong with the bag

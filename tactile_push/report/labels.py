@@ -15,6 +15,7 @@ from tactile_push.control import (
     STOPPED,
     WAITING,
 )
+from tactile_push.control.placing.stages import FAILURES, NO_GOAL, STAGES
 from tactile_push.estimation import CONTRADICTIONS
 from tactile_push.report.data import ERROR, NOTE, WARNING
 from tactile_push.report.episodes import Label
@@ -64,6 +65,14 @@ def contradiction_label(number: float) -> Label | None:
     if not 0.0 < number < len(CONTRADICTIONS):
         return None
     return ERROR, CONTRADICTIONS[int(number)]
+
+
+def stage_label(number: float) -> Label | None:
+    """Return what is to be said of what becomes of a goal."""
+    if not 0.0 <= number < len(STAGES) or STAGES[int(number)] == NO_GOAL:
+        return None
+    stage = STAGES[int(number)]
+    return WARNING if stage in FAILURES else NOTE, stage
 
 
 def status_label(status: Any) -> Label | None:

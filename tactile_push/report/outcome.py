@@ -14,6 +14,7 @@ from tactile_push.control import PUSHING, STATES
 from tactile_push.paper import TOLERANCE, PaperFigures, Range, paper_figures
 from tactile_push.report.columns import Table
 from tactile_push.report.merit import KNOWN, PushFigures, known_step, push_figures
+from tactile_push.report.placings import GOAL_HEADS, Placing, goal_cells
 from tactile_push.report.pushed import Pushed
 
 DEGREES, MILLIMETRES = 180.0 / math.pi, 1e3
@@ -133,6 +134,16 @@ def outcome_table(
             row = next((row for row in rows if row.what == what), Row(what, ''))
             cells += [row.here] if paper is None else [row.here, row.paper]
         table.add_row(*map(escape, [what, *cells]))
+    return table
+
+
+def goal_table(goals: Sequence[Placing], title: str | None = None) -> RichTable:
+    """Return the table of what became of goals, for a terminal."""
+    table = RichTable(title=title, title_justify='left')
+    for heading in GOAL_HEADS:
+        table.add_column(heading)
+    for cells in goal_cells(goals):
+        table.add_row(*map(escape, cells))
     return table
 
 

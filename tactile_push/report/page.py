@@ -17,12 +17,23 @@ import numpy as np
 from tactile_push.report.data import LEVELS, Episode, Run, Series
 from tactile_push.report.episodes import joined
 from tactile_push.report.page_parts import allowance, asset, own_script
+from tactile_push.report.placings import GOAL_HEADS
 from tactile_push.report.scene import scene_content
 from tactile_push.report.shown import HOLD, SERIES, VIEWED, numbers, readable
 from tactile_push.report.visible import frame_times, held, visible
 
 UNSEEN = 1e-3  # gap between two episodes, relative to the duration: about a pixel
 SCRIPTS = ('page.js', 'panels.js', 'plots.js', 'view.js')
+# Of the drawings of placed objects.
+KEY = """<ul class="key" id="placed-key">
+<li style="--key: var(--blue)">finger</li>
+<li style="--key: var(--orange)">centre of mass</li>
+<li style="--key: var(--text)">let go</li>
+<li class="dashed" style="--key: var(--error)">goal</li>
+<li style="--key: var(--green)">d as believed</li>
+<li class="dashed" style="--key: var(--text)">true d</li>
+</ul>
+"""
 MOST_ROWS = 50  # of kinds of episodes: as many as a person may read; picked
 
 
@@ -50,6 +61,7 @@ def report_html(run: Run) -> str:
         facts=html.escape(' · '.join(run.facts)),
         warnings=_warnings(run.warnings),
         summary=_outcome(run.outcome) if run.outcome else '',
+        placed=_placed(run) if run.goals else '',
         events=_events(run.episodes),
         parameters=''.join(_details(title, rows) for title, rows in run.tables.items()),
         data=_script_json(_content(run)),
@@ -109,6 +121,19 @@ def _outcome(rows: Sequence[tuple[str, str, str]]) -> str:
     return _table(
         ('', 'this run', 'paper'),
         [[cell.translate(typeset) if ' to ' in cell else cell for cell in row] for row in rows],
+    )
+
+
+def _placed(run: Run) -> str:
+    """Make the section about goals to place objects at."""
+    pictures = ''.join(
+        f'<figure><figcaption>{html.escape(title)}</figcaption>\n{drawing}</figure>\n'
+        for title, drawing in run.drawings
+    )
+    return (
+        '<section id="placed-section" aria-labelledby="placed-heading">\n'
+        f'<h2 id="placed-heading">Placed objects</h2>\n{_table(GOAL_HEADS, run.goals)}{pictures}'
+        f'{KEY if run.drawings else ""}</section>\n'
     )
 
 

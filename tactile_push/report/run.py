@@ -11,8 +11,10 @@ from tactile_push.bags import BagReader
 from tactile_push.interface import (
     CONTROLLER_STATE,
     GEOMETRY_STATE,
+    PLACE_STATE,
     SENSING_STATE,
     TACTILE,
+    TRUE_STATE,
     VERSION_NOTE,
 )
 from tactile_push.parameters.recorded import recorded_parameters
@@ -34,9 +36,12 @@ from tactile_push.report.labels import (
     contradiction_label,
     doing,
     refusal_label,
+    stage_label,
     stop_label,
 )
 from tactile_push.report.outcome import outcome_of
+from tactile_push.report.placed_view import drawings
+from tactile_push.report.placings import goal_cells, placings
 from tactile_push.report.pushed import plant_in, pushed_object
 from tactile_push.report.scene import scene_of
 from tactile_push.report.shown import SOURCES
@@ -88,6 +93,8 @@ def read_run(bag: BagReader, progress: Callable[[int], None] = lambda done: None
     recorded, warnings = recorded_parameters(bag.notes)
     parameters = recorded or {}
     plant = parameters.get(plant_in(namespace, parameters))
+    scene = scene_of(plant, tables)
+    placed = placings(tables.get(PLACE_STATE, {}), tables.get(TRUE_STATE, {}))
     duration = (bag.end_time - bag.start_time) * 1e-9
     series = _series(tables)
     ticks = tables.get(CONTROLLER_STATE, {})
@@ -102,9 +109,11 @@ def read_run(bag: BagReader, progress: Callable[[int], None] = lambda done: None
         series=series,
         states=DOING if 'state' in series else (),
         episodes=joined(_episodes(tables, statuses), 0.0, duration),
-        scene=scene_of(plant, tables),
+        scene=scene,
         facts=_facts(bag, duration),
         outcome=outcome_of(ticks, tables.get(SENSING_STATE, {}), pushed),
+        goals=goal_cells(placed),
+        drawings=drawings(placed, tables, scene),
         tables=_details(bag, parameters),
         warnings=warnings,
     )
@@ -128,8 +137,9 @@ def _series(tables: Mapping[str, Table]) -> dict[str, Series]:
 
 
 def _episodes(tables: Mapping[str, Table], statuses: Statuses) -> list[Episode]:
-    ticks, readings, sensing = (
-        tables.get(topic, {}) for topic in (CONTROLLER_STATE, GEOMETRY_STATE, SENSING_STATE)
+    ticks, readings, sensing, placing = (
+        tables.get(topic, {})
+        for topic in (CONTROLLER_STATE, GEOMETRY_STATE, SENSING_STATE, PLACE_STATE)
     )
     found = []
     if {'state', 'stop_reason'} <= ticks.keys():
@@ -148,6 +158,9 @@ def _episodes(tables: Mapping[str, Table], statuses: Statuses) -> list[Episode]:
     if 'contradiction' in sensing:
         contradictions = [contradiction_label(number) for number in sensing['contradiction']]
         found += episodes('object', sensing['time'], contradictions, TICK_LASTS)
+    if 'stage' in placing:
+        stages = [stage_label(number) for number in placing['stage']]
+        found += episodes('goal', placing['time'], stages, TICK_LASTS)
     for name, said in statuses.items():
         said.sort(key=lambda status: status[0])
         times, levels = [time for time, _ in said], [label for _, label in said]

@@ -11,6 +11,7 @@ import pytest
 
 from support.bag_making import joint_state, write_bag, write_file
 from support.bags_to_know import BAND, CLOCK, JOINT_STATE, NOTES, STATE, clocks, pushes
+from support.placed_bag import placed_bag
 
 
 @pytest.fixture
@@ -52,6 +53,21 @@ def test_command_says_what_is_in_a_bag(tmp_path, info_of):
     assert ['kp', '0.05'] in rows
     assert 'not in this bag: saturated, limited, ticks, ticks_lost\n' in out
     assert 'parameters of /push_controller\n' in out
+
+
+def test_command_names_the_goals(tmp_path, info_of):
+    status, out, _ = info_of(placed_bag(tmp_path / 'bag'))
+    assert status == 0
+    rows = rows_of(out)
+    assert '/place/goal' in out
+    assert ['goal', 'let go at', 'error', 'belt', 'in reach', 'end'] in rows
+    error = '0.20 mm, -0.06°'
+    placed = ['-50.00 mm, 5.73°', '-49.80 mm, 5.67°', error, '47 mm', 'with reserve', 'released']
+    assert placed in rows
+    assert 'out of reach: friction' in out
+    goals = json.loads(info_of(tmp_path / 'bag', '--json')[1], parse_constant=refuse)['goals']['']
+    assert (goals[0]['x'], goals[0]['theta'], goals[0]['stage']) == (-0.05, 0.1, 'released')
+    assert goals[1]['reached'] is None
 
 
 def test_command_counts_real_time_from_the_epoch(tmp_path, info_of):

@@ -14,6 +14,8 @@ from support.bad_definitions import BAD_DEFINITIONS
 from support.bad_notes import BAD_NOTES, NO_JSON
 from support.bag_making import joint_state, write_bag, write_file, write_foreign_bag
 from support.bags_to_know import BAND, CLOCK, JOINT_STATE, NOTES, PERIOD, STATE, clocks, pushes
+from support.placed_bag import placed_bag
+from support.placed_tables import OFF
 from tactile_push.bags import BagReader, schema_text
 from tactile_push.report.info import bag_info
 
@@ -138,6 +140,19 @@ def test_push(write):
     assert push.missing == ('saturated', 'limited', 'ticks', 'ticks_lost')
     assert push.paper.figure == '9'
     assert push.l is push.d_range is None
+
+
+def test_goals_and_what_became_of_them(tmp_path):
+    info = info_of(placed_bag(tmp_path / 'bag'))
+    (goals,) = info.goals.values()
+    assert list(info.goals) == ['']
+    assert [one.stage for one in goals] == ['released', 'missed', 'preempted', 'not ended']
+    assert goals[0].error == pytest.approx(OFF)
+    assert info.pushes == {}
+
+
+def test_the_truth_alone_has_no_goals(tmp_path):
+    assert info_of(placed_bag(tmp_path / 'bag', places=False)).goals == {}
 
 
 def test_several_fingers_and_what_is_known_of_them(tmp_path):

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from tactile_push.control import STATES, STOP_REASONS
+from tactile_push.control.placing.stages import STAGES
 from tactile_push.estimation import CONTRADICTIONS
 from tactile_push.report.labels import (
     DOING,
@@ -16,6 +17,7 @@ from tactile_push.report.labels import (
     contradiction_label,
     doing,
     refusal_label,
+    stage_label,
     status_label,
     stop_label,
 )
@@ -72,3 +74,23 @@ def test_level_of_a_status_is_a_number_or_a_byte(level, found):
     expected = found and (found, 'words')
     for given in (level, bytes([level]), np.uint8(level)):
         assert status_label(SimpleNamespace(level=given, message='words')) == expected
+
+
+@pytest.mark.parametrize(
+    ('stage', 'level'),
+    [
+        ('learning', 'note'),
+        ('released', 'note'),
+        ('cancelled', 'note'),
+        ('missed', 'warning'),
+        ('object lost', 'warning'),
+    ],
+)
+def test_a_goal_that_failed_is_a_warning(stage, level):
+    assert stage_label(STAGES.index(stage)) == (level, stage)
+
+
+def test_nothing_is_said_without_a_goal_or_of_an_unknown_stage():
+    assert stage_label(STAGES.index('no goal')) is None
+    for number in (-1.0, len(STAGES), math.nan):
+        assert stage_label(number) is None

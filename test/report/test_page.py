@@ -15,6 +15,7 @@ pytest.importorskip('plotly')
 
 from tactile_push.report import report_html
 from tactile_push.report.data import Episode, Run, Scene, Series
+from tactile_push.report.placings import GOAL_HEADS
 
 HOSTILE = '</script><script>alert(1)</script><img src=x onerror=alert(2)>&amp;\u2028"\''
 TIME = np.arange(0.0, 20.0, 0.1)
@@ -89,6 +90,25 @@ def test_numbers_are_those_that_people_read():
     assert data['scene']['radius'] == pytest.approx(13.5)
     assert data['scene']['outline'] == [[0.0, 0.0], [10.0, 0.0], [0.0, 10.0]]
     assert data['scene']['mu_c'] == 0.3
+
+
+def test_goals_have_a_table_and_their_drawings():
+    goals = [('-50.00 mm, 5.73°', '', HOSTILE, '50 mm', 'with reserve', 'missed')]
+    drawing = '<svg class="placed" viewBox="0 0 1 1"><path d="M0 0L1 1"/></svg>'
+    text = report_html(make_run(goals=goals, drawings=[(f'Goal 1: {HOSTILE}', drawing)]))
+    page = Page(text)
+    assert 'Placed objects' in page.inside('h2')
+    assert set(GOAL_HEADS) <= set(page.inside('th'))
+    assert f'Goal 1: {HOSTILE}' in page.inside('figcaption')
+    assert HOSTILE in page.inside('td')
+    assert len([tag for tag in page.tags('svg') if tag.get('class') == 'placed']) == 1
+    assert 'placed-key' in [tag.get('id') for tag in page.tags('ul')]
+
+
+def test_a_run_without_goals_has_no_section_of_them():
+    text = report_html(make_run())
+    assert 'placed-section' not in text
+    assert 'Placed objects' not in Page(text).inside('h2')
 
 
 def test_infinite_and_unknown_friction_are_told_apart():
