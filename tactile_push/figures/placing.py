@@ -25,7 +25,8 @@ class PlacedWay(NamedTuple):
     """How one object was brought to its goal, on the belt."""
 
     title: str  #: what is written above
-    outline: Array  #: about the centre of mass, shape (N, 2) [m]
+    #: corners about the centre of mass [m]; empty if they are not known
+    outline: Sequence[tuple[float, float]]
     edge: float  #: angle of the pushed edge in the object [rad]
     finger: Array  #: centre of the finger's disk at each moment, shape (K, 2) [m]
     radius: float  #: of the disk [m]
@@ -88,7 +89,8 @@ def _outline(
     """Draw the outline about a centre of mass [m] with the pushed edge at theta [rad]."""
     angle = theta - way.edge
     turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-    closed = np.append(way.outline, way.outline[:1], axis=0)
+    corners = np.reshape(np.asarray(way.outline, dtype=float), (-1, 2))
+    closed = np.append(corners, corners[:1], axis=0)
     axis.plot(*_along(closed @ turn.T + centre), **style)
     axis.plot(*_along(centre[np.newaxis]), marker='+', markersize=6.0, color=style['color'])
 

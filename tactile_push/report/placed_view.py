@@ -20,7 +20,7 @@ MARGIN = 6.0  # around what is drawn [mm]
 MOST_POINTS = 400  # of a line
 BETWEEN = 0.05  # belt between two outlines on the way [m]
 BAR = 20.0  # length of the scale [mm]
-HEIGHT = 40.0  # of the drawing of d [mm]
+HEIGHT = 80.0  # of the drawing of d [mm]
 
 
 def drawings(

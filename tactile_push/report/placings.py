@@ -63,7 +63,8 @@ class Way(NamedTuple):
     """How finger and object moved on the belt, from the first contact until the object was free."""
 
     finger: Column  # centre of the disk across and along the belt at each moment, (K, 2) [m]
-    moved: Column  # of the object: x, y of the centre of mass [m] and theta [rad] at each moment, (K, 3)
+    # Of the object at each moment: x, y of the centre of mass [m] and theta [rad], (K, 3)
+    moved: Column
     edge: float  # angle of the pushed edge in the object [rad]
 
 

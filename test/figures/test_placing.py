@@ -11,7 +11,7 @@ import pytest
 from tactile_push.control.placing.model import Goal
 from tactile_push.figures import PlacedWay, plot_placed
 
-SQUARE = np.array([(-0.02, -0.02), (0.02, -0.02), (0.02, 0.02), (-0.02, 0.02)])
+SQUARE = [(-0.02, -0.02), (0.02, -0.02), (0.02, 0.02), (-0.02, 0.02)]
 BELT = np.linspace(0.0, 0.12, 25)
 
 
