@@ -6,7 +6,7 @@
 # The table has the rows in the order of these imports.
 from . import process_rows, device_rows, topic_rows, parameter_rows, lifecycle_rows  # noqa: F401
 from . import joint_rows, wrench_rows, camera_rows, clock_rows, pair_rows  # noqa: F401
-from . import servo_rows  # noqa: F401
+from . import servo_rows, place_rows  # noqa: F401
 
 # isort: on
 from .promise import FAULTS

@@ -9,20 +9,26 @@ from collections.abc import Callable
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import WrenchStamped
+from geometry_msgs.msg import PoseStamped, WrenchStamped
 from lifecycle_msgs.msg import State
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from sensor_msgs.msg import Image, JointState
-from std_msgs.msg import Float64MultiArray
+from std_msgs.msg import Bool, Float64MultiArray
 from std_srvs.srv import Trigger
 
 from tactile_push.control import PUSHING, SERVO_STOP_REASONS, STOP_REASONS, TICKS_LOST
+from tactile_push.control.placing import STAGES
 from tactile_push.interface import (
+    ACTIVE_SENSING,
     CONTACT_GEOMETRY,
     FINGER_SERVO,
     IMAGE,
     JOINT_STATES,
     JOINT_VELOCITIES,
+    PLACE,
+    PLACE_GOAL,
+    PLACE_RELEASE,
+    PLACE_STATE,
     PUSH_CONTROLLER,
     SENSOR_DRIVER,
     SERVO_COMMANDS,
@@ -42,10 +48,21 @@ from .relay import Relay
 # What can be spoiled on its way.
 RELAYED = {JOINT_STATES: JointState, WRENCH: WrenchStamped, IMAGE: Image}
 DESIRED = math.radians(10.0)  # to both sides in turn, so that the finger stays where it can
+ASIDE = 0.02  # of goals, to both sides in turn [m]
 MOVING = 5e-5  # [m/s]
 MOST_THETA = math.radians(25.0)
 MOST_D = 0.01  # [m]
 HOLD = 0.3  # for so long a stopped finger has to stay stopped before it counts [s]
+
+
+def goal(x: float, theta: float = 0.0, frame: str = 'finger_base') -> PoseStamped:
+    """Return a goal across the belt [m] with an angle of the edge [rad]."""
+    message = PoseStamped()
+    message.header.frame_id = frame
+    message.pose.position.x = x
+    turn = message.pose.orientation
+    turn.z, turn.w = math.sin(theta / 2.0), math.cos(theta / 2.0)
+    return message
 
 
 class Finger(Rig):
@@ -72,7 +89,7 @@ class Finger(Rig):
         Its nodes.
     foreign : set of (int, int)
         Stamps of the messages that the tool itself has published.
-    diagnostics, joint_states, velocities, servo_states : Heard
+    diagnostics, joint_states, velocities, servo_states, place_states, releases : Heard
         What was heard so far.
     """
 
@@ -89,6 +106,8 @@ class Finger(Rig):
         self.chain = (SIM_PLANT, self._sensor.node, CONTACT_GEOMETRY, PUSH_CONTROLLER)
         if setup.servo:
             self.chain += (FINGER_SERVO,)
+        if setup.places:
+            self.chain += (ACTIVE_SENSING,)
         if setup.relay:
             self.relay = Relay(observer, RELAYED[setup.relay], self.name(setup.relay))
         self.foreign: set[tuple[int, int]] = set()
@@ -97,6 +116,8 @@ class Finger(Rig):
         self.velocities = observer.hear(Float64MultiArray, self.name(SERVO_COMMANDS))
         self.joint_states = observer.hear(JointState, self.name(JOINT_STATES))
         self.servo_states = observer.hear(JointState, self.name(SERVO_STATE))
+        self.place_states = observer.hear(JointState, self.name(PLACE_STATE))
+        self.releases = observer.hear(Bool, self.name(PLACE_RELEASE))
 
     def begin(self, node: str, **more: Any) -> None:
         """Start one of its nodes, with more parameters."""
@@ -116,7 +137,10 @@ class Finger(Rig):
             parameters['device'] = self.proxy.url
         elif node == PUSH_CONTROLLER:
             parameters['autostart'] = False
+            parameters |= {'law': PLACE} if self._setup.places else {}
             parameters |= dict(self._setup.controller)
+        elif node == ACTIVE_SENSING:
+            parameters |= dict(self._setup.sensing)
         parameters |= more
         self.start_node(node, parameters, arguments)
 
@@ -157,9 +181,37 @@ class Finger(Rig):
         return int(process.returncode)
 
     def turn(self) -> None:
-        """Ask for the other angle, so that the finger has to move."""
+        """Ask for the other angle or place, so that the finger has to move."""
         self._desired = -self._desired
-        self.ask_for(self._desired)
+        if self._setup.places:
+            start = field(self.truth[0], 'object_x')
+            self.give_goal(goal(start + math.copysign(ASIDE, self._desired)))
+        else:
+            self.ask_for(self._desired)
+
+    def give_goal(self, message: PoseStamped) -> None:
+        """Publish a goal, and wait until it is taken or refused."""
+        before = self._goals_heard
+        self.publish(PLACE_GOAL, message)
+        self.observer.wait_for(lambda: self._goals_heard > before, 'an answer to the goal')
+
+    @property
+    def _goals_heard(self) -> float:
+        """Goals that the controller has taken or refused, by its last word."""
+        said = self.observer.wait_for(lambda: self.place_states, 'a state of the goal')
+        return field(said[-1], 'goals') + field(said[-1], 'refused')
+
+    @property
+    def stage(self) -> str:
+        """What becomes of the goal, one of `STAGES`; '' before the first word."""
+        return STAGES[int(field(self.place_states[-1], 'stage'))] if self.place_states else ''
+
+    def expect_stage(self, stage: str, patience: float = 2.0) -> None:
+        """Wait for the controller to say what has become of the goal."""
+        try:
+            self.observer.wait_for(lambda: self.stage == stage, f'stage {stage}', patience)
+        except BrokenPromiseError as error:
+            raise BrokenPromiseError(f'{error}, it is {self.stage}') from None
 
     def ask_for(self, theta: float) -> None:
         """Ask for an angle of the edge [rad]."""

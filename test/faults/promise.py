@@ -16,6 +16,8 @@ SILENT = 0.45  # contact_timeout, one control period, the way of the last readin
 ONE_PERIOD = 0.2  # a control period, the way of the command, a period of the plant
 COMMAND_LOST = 0.6  # command_timeout of the plant, a period of its sensor, the way of the state
 SIGNAL = 0.2
+ASKED = 0.3  # the way of a request to a service, a control period, the way of the command
+ESTIMATE_LOST = 0.8  # 5 control periods, the present one, the way of the estimate and the command
 JOINTS_LOST = 0.3  # joint_state_timeout of the servo, the way of the last joint states and commands
 
 
@@ -39,8 +41,10 @@ class Setup:
         Whether the tool publishes /clock and all nodes live by it.
     servo : bool, optional
         Whether `finger_servo` moves the joints of the plant's finger.
-    controller : tuple of (str, object), optional
-        More parameters of `push_controller`.
+    places : bool, optional
+        Whether the law is `place`, with `active_sensing`.
+    controller, sensing : tuple of (str, object), optional
+        More parameters of `push_controller` and of `active_sensing`.
     """
 
     fingers: tuple[str, ...] = ('',)
@@ -48,7 +52,9 @@ class Setup:
     sensor: str = SENTENCE
     own_clock: bool = False
     servo: bool = False
+    places: bool = False
     controller: tuple[tuple[str, Any], ...] = ()
+    sensing: tuple[tuple[str, Any], ...] = ()
 
 
 PLAIN = Setup()
