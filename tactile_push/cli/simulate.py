@@ -59,7 +59,8 @@ def add(commands: Commands) -> None:
         '--law',
         default='push',
         choices=tuple(LAWS),
-        help='push brings theta to its desired angle by the law (18); steer carries the object '
+        help='push brings theta to its desired angle by the law (18); place brings the object to a '
+        'place across the belt and an angle, and lets it go there; steer carries the object '
         'straight ahead at a place across the belt; settle brings theta to an angle by all that is '
         'known',
     )
@@ -88,14 +89,14 @@ def add(commands: Commands) -> None:
         default=argparse.SUPPRESS,
         metavar='MM',
         help='where the centre of mass shall be across the belt, from where the finger starts, for '
-        'the law steer',
+        'the laws place and steer',
     )
     option(
         '--theta-goal-deg',
         type=edge,
         default=argparse.SUPPRESS,
         metavar='DEG',
-        help='angle that the edge shall have, for the law settle',
+        help='angle that the edge shall have, for the laws place and settle',
     )
     option('--steps', type=steps, default=600, metavar='N', help='control periods of 0.1 s')
     option(
@@ -115,7 +116,8 @@ def add(commands: Commands) -> None:
         type=picture,
         metavar='FILE',
         default=argparse.SUPPRESS,
-        help='draw theta and phi - 90 degrees against the step; the ending chooses the format',
+        help='draw theta and phi - 90 degrees against the step, or with law place the ways of '
+        'finger and object from above; the ending chooses the format',
     )
     simulate.set_defaults(run=_simulate)
 
@@ -142,11 +144,8 @@ def _simulate(options: argparse.Namespace) -> int:
             with naming(json_file, '--json'):
                 write_json(json_file, _as_json(done, config))
         if plot is not None:
-            from tactile_push.figures import plot_history  # which loads matplotlib
-
-            panel = run.theta, run.phi, done.theta_wanted, TOLERANCE, done.settled
             with naming(plot, '--plot'):
-                plot_history({'': panel}, [plot])
+                _draw(done, plot)
     except ValueError as error:
         raise Refused(error) from None
     if json_file != '-':
@@ -154,6 +153,17 @@ def _simulate(options: argparse.Namespace) -> int:
     if run.end != 'done':
         raise Refused(run.end, status=1)
     return 0
+
+
+def _draw(done: Simulated, file: Path) -> None:
+    """Draw a run as its law has it, or else theta and phi against the step."""
+    if done.draw is not None:
+        done.draw(file)
+        return
+    from tactile_push.figures import plot_history  # which loads matplotlib
+
+    run = done.run
+    plot_history({'': (run.theta, run.phi, done.theta_wanted, TOLERANCE, done.settled)}, [file])
 
 
 def _config(options: argparse.Namespace) -> 'RigConfig':

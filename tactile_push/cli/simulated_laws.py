@@ -5,7 +5,8 @@
 import argparse
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tactile_push.cli.arguments import Refused
@@ -14,6 +15,7 @@ from tactile_push.paper import KD, KP, THETA_DESIRED, TOLERANCE
 if TYPE_CHECKING:
     from tactile_push.control import PushLaw
     from tactile_push.simulation import RigConfig, Rollout
+    from tactile_push.simulation.placed_run import PlacedRun
 
 # Options of law (18), with their defaults, and goals.
 DEFAULTS = {
@@ -36,6 +38,8 @@ class Simulated:
     theta_wanted: float  #: the angle that the law was told [rad]; NaN if it was told none
     rows: tuple[str, ...] = ()  #: more lines for people
     told: dict[str, Any] = field(default_factory=dict)  #: more numbers for JSON
+    #: draws the run into a file; None for theta and phi against the step
+    draw: Callable[[Path], None] | None = None
 
 
 Runner = Callable[[argparse.Namespace, 'RigConfig'], Simulated]
@@ -99,6 +103,53 @@ def _push(options: argparse.Namespace, config: 'RigConfig') -> Simulated:
     return _to_angle(run, options.theta_desired_deg)
 
 
+def _place(options: argparse.Namespace, config: 'RigConfig') -> Simulated:
+    """Bring the centre of mass to a place and the edge to an angle, and let go there."""
+    from tactile_push.control.placing.model import Goal
+    from tactile_push.simulation.placed_run import placed_run
+
+    goal = Goal(options.x_goal_mm / 1000.0, math.radians(options.theta_goal_deg))
+    done = placed_run(config, goal, options.steps)
+    run, placed = done.run, done.placement
+    off = f'{1000.0 * placed.x_error:.2f} mm, {math.degrees(placed.theta_error):.2f}°'
+    belt, learned = 1000.0 * placed.belt, 1000.0 * placed.learned
+    told = asdict(placed)
+    del told['end']  # which the run has
+    return Simulated(
+        run,
+        len(run.theta) - 1 if run.end == 'done' else None,
+        'where it is let go',
+        goal.theta,
+        (
+            _x_row(run),
+            f'error      {off}',
+            f'belt       {belt:.1f} mm, {learned:.1f} mm of it to learn where the finger touches',
+        ),
+        {'finger': done.finger.tolist(), 'goal': goal._asdict(), **told},
+        lambda file: _draw_placed(done, config, f'off by {off}', file),
+    )
+
+
+def _draw_placed(done: 'PlacedRun', config: 'RigConfig', title: str, file: Path) -> None:
+    """Draw ways and goal from above."""
+    import numpy as np
+
+    from tactile_push.figures import PlacedWay, plot_placed  # which load matplotlib
+    from tactile_push.mechanics.contact import TAU
+
+    run = done.run
+    way = PlacedWay(
+        title,
+        [(x, y) for x, y in config.slider.outline.points(math.inf).tolist()],
+        float(config.body.path[0, TAU]),
+        done.finger,
+        config.radius,
+        np.stack([run.x, run.y, run.theta], axis=1),
+        done.goal,
+    )
+    plot_placed([way], [file])
+
+
 def _settle(options: argparse.Namespace, config: 'RigConfig') -> Simulated:
     """Bring theta to its goal by all that the pushes tell."""
     from tactile_push.simulation.settled_run import settled_run
@@ -135,6 +186,7 @@ def _x_row(run: 'Rollout') -> str:
 
 LAWS = {
     'push': Law(_push, options=tuple(DEFAULTS)),
+    'place': Law(_place, (X_GOAL, THETA_GOAL)),
     'steer': Law(_steer, (X_GOAL,), ('kp', 'kd')),
     'settle': Law(_settle, (THETA_GOAL,)),
 }

@@ -10,6 +10,7 @@ from tactile_push import paper
 from tactile_push.control import Tick
 from tactile_push.control.placing.law import PlaceLaw
 from tactile_push.control.placing.model import Goal
+from tactile_push.control.placing.stages import MISSED, RELEASED
 from tactile_push.mechanics.compiled import Array
 from tactile_push.simulation.by_touch import LAG, NOISE, check_edges, faults_of, sensing_of
 from tactile_push.simulation.placement import Placement, place
@@ -73,5 +74,6 @@ def placed_run(config: RigConfig, goal: Goal, steps: int, seed: int = 0) -> Plac
     faults = faults_of(NOISE, LAG)
     done = place(config, law, sensing=sensing, faults=faults, seed=seed, watch=watch)
     theta, phi, d, x, y, mode, finger_x, finger_y = np.array(rows).T
-    run = Rollout(theta, phi, d, x, y, mode.astype(np.int64), done.end or 'done')
+    end = {RELEASED: 'done', MISSED: MISSED}.get(done.stage, done.end or done.stage)
+    run = Rollout(theta, phi, d, x, y, mode.astype(np.int64), end)
     return PlacedRun(run, np.stack([finger_x, finger_y], axis=1), goal, done)

@@ -5,10 +5,15 @@
 import json
 import math
 
+import numpy as np
 import pytest
 
+from tactile_push.simulation import Rollout
 from tactile_push.simulation import steered_run as steering
+from tactile_push.simulation.placed_run import PlacedRun
+from tactile_push.simulation.placement import Placement
 
+PLACE = '--law', 'place', '--x-goal-mm'
 SETTLE, STEER = ('--law', 'settle', '--theta-goal-deg'), ('--law', 'steer', '--x-goal-mm')
 
 
@@ -31,6 +36,55 @@ def test_settle_brings_theta_to_its_goal_from_figure_8s_start_by_step_50(simulat
     assert math.degrees(run['theta'][0]) == pytest.approx(20.0)
     assert run['settle_step'] <= 50
     assert all(abs(math.degrees(theta) + 10.0) <= 3.0 for theta in run['theta'][50:])
+
+
+@pytest.fixture
+def placed(monkeypatch):
+    """Let every object be placed in two control periods; return what was asked for."""
+    asked = []
+
+    def run(config, goal, steps):
+        asked.append((config.theta, config.d, goal, steps))
+        columns = [[0.3, 0.2, 0.1], [1.5, 1.6, 1.6], [0.003, 0.002, 0.001]]
+        columns += [[-0.02, -0.01, 0.0022], [0.037, 0.0375, 0.038]]
+        history = Rollout(*np.array(columns), np.array([0, 0, 0]), 'done')
+        finger = np.array([[0.0, 0.0], [0.01, 0.0005], [0.02, 0.001]])
+        return PlacedRun(history, finger, goal, Placement('released', '', 2e-4, 0.001, 0.09, 0.02))
+
+    monkeypatch.setattr('tactile_push.simulation.placed_run.placed_run', run)
+    return asked
+
+
+def test_place_is_told_its_goal_and_tells_how_the_object_lies(placed, simulated, tmp_path):
+    picture = tmp_path / 'placed.png'
+    run = simulated(*PLACE, 2, '--theta-goal-deg', -6, '--d0-mm', 3, '--plot', picture)
+    goal = (0.002, math.radians(-6.0))
+    assert placed == [(math.radians(20.0), 0.003, goal, 600)]
+    assert run['goal'] == {'x': goal[0], 'theta': goal[1]}
+    assert (run['stage'], run['end'], run['settle_step']) == ('released', 'done', 2)
+    assert (run['x_error'], run['theta_error'], run['belt'], run['learned']) == (
+        *(2e-4, 0.001, 0.09, 0.02),
+    )
+    assert run['finger'][1] == [0.01, 0.0005]
+    assert picture.read_bytes().startswith(b'\x89PNG')
+
+
+def test_what_is_placed_is_told_in_lines(placed, command):
+    status, out, _ = command('simulate', *PLACE, 2, '--theta-goal-deg', -6)
+    assert status == 0
+    rows = dict(line.split(maxsplit=1) for line in out.splitlines())
+    assert rows['settled'] == 'step 2, where it is let go'
+    assert rows['x'] == '-20.00 mm -> 2.20 mm'
+    assert rows['error'] == '0.20 mm, 0.06°'
+    assert rows['belt'] == '90.0 mm, 20.0 mm of it to learn where the finger touches'
+
+
+def test_an_object_that_is_not_placed_is_a_failure(command):
+    # Belt for three control periods.
+    status, out, err = command('simulate', *PLACE, 0, '--theta-goal-deg', 0, '--steps', 3)
+    assert status == 1
+    assert err.endswith('tactile_push simulate: missed\n')
+    assert 'settled    never, where it is let go\n' in out
 
 
 @pytest.mark.slow
@@ -78,6 +132,11 @@ def test_the_gains_of_law_18_are_those_of_steer(simulated, monkeypatch):
         (('--theta-goal-deg', 0), '--theta-goal-deg: expected --law'),
         ((*SETTLE, 0, '--object', 'disk'), 'object: expected one with straight edges to settle'),
         ((*STEER, 0, '--object', 'disk'), 'object: expected one with straight edges to steer'),
+        ((*PLACE, 0), '--law: expected --theta-goal-deg with place, got none'),
+        (
+            (*PLACE, 0, '--theta-goal-deg', 0, '--object', 'disk'),
+            'object: expected one with straight edges to place',
+        ),
         (('--law', 'shove'), "argument --law: invalid choice: 'shove'"),
         ((*STEER, 'nan'), 'argument --x-goal-mm: expected millimetres, got nan'),
         ((*SETTLE, 90), 'argument --theta-goal-deg: expected degrees between -90 and 90, got 90'),
