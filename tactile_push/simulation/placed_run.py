@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """One object placed by touch alone, and its way there."""
 
+import typing
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +17,9 @@ from tactile_push.simulation.by_touch import LAG, NOISE, check_edges, faults_of,
 from tactile_push.simulation.placement import Placement, place
 from tactile_push.simulation.rig import Rig, RigConfig
 from tactile_push.simulation.rollout import Rollout
+
+if typing.TYPE_CHECKING:
+    from tactile_push.simulation.mujoco_rig import MujocoRig
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,13 +70,13 @@ def placed_run(config: RigConfig, goal: Goal, steps: int, seed: int = 0) -> Plac
         lag=LAG,
     )
 
-    def watch(rig: Rig, tick: Tick) -> None:
+    def watch(rig: 'Rig | MujocoRig', tick: Tick) -> None:
         pose = rig.object_pose
         moved = rig.theta, tick.phi, rig.d, pose.x, pose.y, rig.mode
         rows.append((*moved, rig.finger_x, rig.finger_y))
 
-    faults = faults_of(NOISE, LAG)
-    done = place(config, law, sensing=sensing, faults=faults, seed=seed, watch=watch)
+    rig = Rig(config, faults_of(NOISE, LAG))
+    done = place(rig, law, sensing=sensing, seed=seed, watch=watch)
     theta, phi, d, x, y, mode, finger_x, finger_y = np.array(rows).T
     end = {RELEASED: 'done', MISSED: MISSED}.get(done.stage, done.end or done.stage)
     run = Rollout(theta, phi, d, x, y, mode.astype(np.int64), end)

@@ -3,6 +3,7 @@
 """One object placed on the rig, through sensor, finger and the steps that the nodes run."""
 
 import math
+import typing
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -21,8 +22,10 @@ from tactile_push.mechanics.resistance import Pressure
 from tactile_push.pipeline import Sensing
 from tactile_push.pipeline.belief import belief_of
 from tactile_push.simulation.experiment import control_periods
-from tactile_push.simulation.faults import NO_FAULTS, Faults
 from tactile_push.simulation.rig import Rig, RigConfig
+
+if typing.TYPE_CHECKING:
+    from tactile_push.simulation.mujoco_rig import MujocoRig
 
 CERTAIN = 1e-4  # deviations of what is told and not estimated [m, rad]
 
@@ -40,30 +43,27 @@ class Placement:
 
 
 def place(
-    config: RigConfig,
+    rig: 'Rig | MujocoRig',
     law: PlaceLaw,
     *,
     period: float = 0.1,
     sensing: ActiveSensing | None = None,
-    faults: Faults = NO_FAULTS,
     limits: Limits | None = None,
     seed: int = 0,
-    watch: Callable[[Rig, Tick], None] = lambda rig, tick: None,
+    watch: 'Callable[[Rig | MujocoRig, Tick], None]' = lambda rig, tick: None,
 ) -> Placement:
-    """Place an object on the rig.
+    """Place an object on a rig.
 
     Parameters
     ----------
-    config : RigConfig
-        The rig and where it starts.
+    rig : Rig or MujocoRig
+        The rig. The run moves it.
     law : PlaceLaw
         The law, with its goal in `finger_base`. The run changes it.
     period : float, optional
         Control period [s].
     sensing : ActiveSensing, optional
         What it believes; by default it is told the truth.
-    faults : Faults, optional
-        Faults of the rig; none by default.
     limits : Limits, optional
         When to stop and how fast to go at the most.
     seed : int, optional
@@ -76,7 +76,7 @@ def place(
     Placement
         How the object lies when the finger lets go, or stops.
     """
-    rig = Rig(config, faults)
+    config = rig.config
     push = PushControl(law, config.belt_speed, period, limits)
     steps = None if sensing is None else Sensing(sensing, lambda k, _: k * period)
     piece = period * config.belt_speed
@@ -134,7 +134,7 @@ def pushed_of(config: RigConfig) -> Pushed:
     return Pushed(l, config.radius, pressure, cos_alpha, sin_alpha, 0.0, 0.0)
 
 
-def _truth(rig: Rig, piece: float) -> Belief:
+def _truth(rig: 'Rig | MujocoRig', piece: float) -> Belief:
     config = rig.config
     path = config.body.path
     start = float(path[0, D_START])
@@ -144,6 +144,6 @@ def _truth(rig: Rig, piece: float) -> Belief:
     return Belief(rig.finger_pose.x, rig.theta, rig.d, pushed, ends, spread)
 
 
-def _turning(rig: Rig) -> float:
+def _turning(rig: 'Rig | MujocoRig') -> float:
     """Return by how much the tip turns for each metre across the belt [rad/m]."""
     return rig.config.finger.turning(*rig.joints[:2]) if rig.config.tip_turns else 0.0

@@ -32,7 +32,7 @@ def test_an_object_is_placed_if_the_truth_is_told(tip_turns):
     block = paper_block(theta=0.2, d=0.003)
     config = RigConfig(block.slider, math.inf, 0.2, 0.003, tip_turns=tip_turns)
     law = law_for(config, -0.015, 0.0)
-    found = place(config, law, faults=Faults(servo=Servo(time_constant=LAG)))
+    found = place(Rig(config, Faults(servo=Servo(time_constant=LAG))), law)
     assert (found.stage, found.end) == (RELEASED, '')
     assert abs(found.x_error) < 2e-4
     assert abs(found.theta_error) < math.radians(0.2)
@@ -49,7 +49,7 @@ def test_an_object_is_placed_by_touch_alone():
     estimator = ObjectEstimator(edges_of(BLOCK_CORNERS)[:1], NOISE, l_share=0.01, radius_share=0.01)
     sensing = ActiveSensing(estimator, FingerMotion(LAG), config.belt_speed, 0.3)
     faults = Faults(servo=Servo(time_constant=LAG), sensor=Sensor(NOISE))
-    found = place(config, law, sensing=sensing, faults=faults)
+    found = place(Rig(config, faults), law, sensing=sensing)
     assert (found.stage, found.end) == (RELEASED, '')
     assert abs(found.x_error) < 5e-4
     assert abs(found.theta_error) < math.radians(0.5)
