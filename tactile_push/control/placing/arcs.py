@@ -10,6 +10,7 @@ from tactile_push.mechanics.compiled import Array, compiled
 ARCS = 4
 UNKNOWNS = 2 * ARCS
 LENGTH = 0.1  # [m]
+NOTHING = 1e-12  # a length that is rounding of 0 [`LENGTH`]
 
 
 @compiled
@@ -24,8 +25,9 @@ def rest_of(push: Array, way: float, rest: Array) -> None:
         used = min(left, rest[ARCS])
         rest[ARCS] -= used
         left -= used
-        if rest[ARCS] > 0.0:
+        if rest[ARCS] > NOTHING:
             break
+        rest[ARCS] = 0.0
         longest = 1
         for i in range(2, ARCS):
             if rest[ARCS + i] > rest[ARCS + longest]:
