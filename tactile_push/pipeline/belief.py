@@ -14,7 +14,8 @@ from tactile_push.mechanics import friction_cone
 from tactile_push.mechanics.resistance import Pressure
 
 NARROWEST = 1e-5  # standard deviation of d [m]; with 0 nothing could be learned
-NEEDED = (  # finite; mu_c besides, which may be infinite
+FRICTION = ('mu_c', 'mu_c_lower', 'mu_c_upper')  # needed, and may be infinite
+NEEDED = (  # finite
     *('theta', 'd', 'theta_deviation', 'd_deviation', 'log_c_deviation', 'l', 'radius'),
     *('c_squared', 'growth', 'shape', 'tilt', 'moment_along', 'moment_mixed', 'moment_across'),
     *('edge_start', 'edge_end', 'noise'),
@@ -42,7 +43,8 @@ def belief_of(
         What is believed; None if anything that it takes is not known.
     """
     numbers = [*(values.get(name, math.nan) for name in NEEDED), x, turning]
-    if not (all(map(math.isfinite, numbers)) and values.get('mu_c', math.nan) >= 0.0):
+    known = all(values.get(name, math.nan) >= 0.0 for name in FRICTION)
+    if not (known and all(map(math.isfinite, numbers))):
         return None
     cos_alpha, sin_alpha = friction_cone(values['mu_c'])
     moments = np.array([values[f'moment_{way}'] for way in ('along', 'mixed', 'across')])
@@ -58,4 +60,5 @@ def belief_of(
         reading,
     )
     ends = values['edge_start'], values['edge_end']
-    return Belief(x, values['theta'], values['d'], pushed, ends, spread)
+    friction = values['mu_c_lower'], values['mu_c_upper']
+    return Belief(x, values['theta'], values['d'], pushed, friction, ends, spread)

@@ -141,7 +141,8 @@ def _truth(rig: 'Rig | MujocoRig', piece: float) -> Belief:
     spread = Spread(CERTAIN, CERTAIN, CERTAIN, CERTAIN, piece)
     ends = start, start + float(path[0, LENGTH])
     pushed = pushed_of(config)._replace(turning=_turning(rig))
-    return Belief(rig.finger_pose.x, rig.theta, rig.d, pushed, ends, spread)
+    friction = config.mu_c, config.mu_c
+    return Belief(rig.finger_pose.x, rig.theta, rig.d, pushed, friction, ends, spread)
 
 
 def _turning(rig: 'Rig | MujocoRig') -> float:

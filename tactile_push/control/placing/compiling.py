@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compiles what the law that places would compile while the object is pushed."""
 
+import math
+
 import numpy as np
 
 from tactile_push import paper
@@ -25,7 +27,7 @@ def compile_placing() -> None:
     piece = paper.BELT_SPEED * paper.CONTROL_PERIOD
     for d_deviation in (5e-3, 1e-4, 1e-4):
         spread = Spread(1e-3, d_deviation, 0.1, 1e-3, piece)
-        law.believe(Belief(0.0, THETA, 0.0, pushed, ends, spread))
+        law.believe(Belief(0.0, THETA, 0.0, pushed, (0.3, math.inf), ends, spread))
         law.pass_time(paper.CONTROL_PERIOD)
         law.update(THETA)
     present = law.present()

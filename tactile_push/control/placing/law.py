@@ -23,6 +23,7 @@ from tactile_push.control.placing.stages import (
     RELEASED,
 )
 from tactile_push.control.states import NO_REASON, NOTHING_TO_DO
+from tactile_push.mechanics import friction_cone
 
 NOWHERE = Goal(math.nan, math.nan)  # no goal
 ACTING = (LEARNING, PLACING, LETTING_GO)
@@ -42,6 +43,7 @@ class Belief:
     theta: float  #: angle of the pushed edge [rad]
     d: float  #: contact along the edge [m]
     pushed: Pushed  #: numbers of object and finger
+    friction: tuple[float, float]  #: least and most mu_c that are to be thought of
     ends: tuple[float, float]  #: of the edge, least and most d [m]
     spread: Spread  #: how well they are known
 
@@ -222,14 +224,16 @@ class PlaceLaw(PushLaw):
             return
         now, belief = present
         if math.isnan(self._aim):
-            self._aim = theta
+            self._aim = belief.theta
         margin = D_MARGIN + SPREADS * min(belief.spread.d, KNOWN)
         bounds = self._bounds._replace(d_min=belief.ends[0] + margin, d_max=belief.ends[1] - margin)
         known = belief.spread.d <= KNOWN or self.used > LEARNED_SHARE * self.belt
         if self.stage == LEARNING and known:
             self.stage = PLACING
         if self.stage == LEARNING:
-            u = telling_command(now, belief.pushed, bounds, belief.spread, self._aim)
+            cos, sin = friction_cone(belief.friction[0])
+            slippery = belief.pushed._replace(cos_alpha=cos, sin_alpha=sin)
+            u = telling_command(now, belief.pushed, slippery, bounds, belief.spread, self._aim)
         else:
             u = self._place(now, belief.pushed, bounds, self.belt - self.used)
         self.phi = motion_angle(u, 1.0)

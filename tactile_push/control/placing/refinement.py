@@ -17,6 +17,7 @@ from tactile_push.control.placing.model import (
     outside,
     step,
 )
+from tactile_push.control.placing.solving import solve
 from tactile_push.mechanics.compiled import Array, compiled, equation
 
 Counts = npt.NDArray[np.int64]
@@ -111,32 +112,6 @@ def residuals(
 
 
 @compiled
-def _solve(matrix: Array, vector: Array) -> bool:
-    """Solve a positive definite system in place, by Cholesky's method; False if it is not."""
-    n = len(vector)
-    for i in range(n):
-        for j in range(i + 1):
-            value = matrix[i, j]
-            for k in range(j):
-                value -= matrix[i, k] * matrix[j, k]
-            if i == j:
-                if not value > 0.0:
-                    return False
-                matrix[i, i] = math.sqrt(value)
-            else:
-                matrix[i, j] = value / matrix[j, j]
-    for i in range(n):
-        for k in range(i):
-            vector[i] -= matrix[i, k] * vector[k]
-        vector[i] /= matrix[i, i]
-    for i in range(n - 1, -1, -1):
-        for k in range(i + 1, n):
-            vector[i] -= matrix[k, i] * vector[k]
-        vector[i] /= matrix[i, i]
-    return True
-
-
-@compiled
 def refine(
     push: Array,
     start: Situation,
@@ -209,7 +184,7 @@ def refine(
                     matrix[j, m] = matrix[m, j] = normal[j, m] if free else 0.0
                 matrix[j, j] = normal[j, j] + damping * (normal[j, j] + FLOOR)
                 trial[j] = 0.0 if _held(push, low, high, gradient, j) else -gradient[j]
-            if _solve(matrix, trial):
+            if solve(matrix, trial):
                 for j in range(UNKNOWNS):
                     trial[j] = min(max(push[j] + trial[j], low[j]), high[j])
                 after = residuals(trial, counts, start, goal, pushed, bounds, least, most, there)

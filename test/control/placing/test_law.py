@@ -38,7 +38,7 @@ def law(goal=GOAL, belt=0.3, **how):
 
 def belief(now, d_spread=1e-4):
     spread = Spread(1e-3, d_spread, 0.1, 0.005, PIECE)
-    return Belief(now.x, now.theta, now.d, PUSHED, ENDS, spread)
+    return Belief(now.x, now.theta, now.d, PUSHED, (math.inf, math.inf), ENDS, spread)
 
 
 def driven(one, d_spread=1e-4, now=START, periods=600, known_every=1, felt_every=1):

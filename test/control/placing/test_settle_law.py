@@ -28,7 +28,8 @@ def law():
 
 def belief(now, d_error=0.0):
     spread = Spread(1e-3, 1e-3, 0.1, 0.005, PIECE)
-    return Belief(now.x, now.theta, now.d + d_error, PUSHED, (-0.025, 0.025), spread)
+    ends, friction = (-0.025, 0.025), (0.0, math.inf)
+    return Belief(now.x, now.theta, now.d + d_error, PUSHED, friction, ends, spread)
 
 
 def driven(one, d_error=0.0, periods=100):
