@@ -16,8 +16,8 @@ BETTER = 0.5  # of the deviation of d at the last look, below which to look agai
 class ReachOutlook:
     """Looks whether a goal can be reached, and again when d has become better known.
 
-    A look takes two plans, up to six for a goal out of reach, and some dozens more for the nearest
-    goal that is not.
+    A look takes two plans, up to seven for a goal out of reach, and some dozens more for the
+    nearest goal that is not.
 
     Attributes
     ----------

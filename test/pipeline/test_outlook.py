@@ -32,7 +32,12 @@ def plans(monkeypatch):
     """List the goals that were planned for."""
     found = []
     plan = Task.plan
-    monkeypatch.setattr(Task, 'plan', lambda self, goal: found.append(goal) or plan(self, goal))
+
+    def found_too(self, goal, **how):
+        found.append(goal)
+        return plan(self, goal, **how)
+
+    monkeypatch.setattr(Task, 'plan', found_too)
     return found
 
 

@@ -9,7 +9,14 @@ import numpy as np
 from tactile_push.control.placing.arcs import UNKNOWNS
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation
 from tactile_push.control.placing.refinement import refine
-from tactile_push.control.placing.search import FAMILIES, arcs, search
+from tactile_push.control.placing.search import (
+    COLUMNS,
+    FAMILIES,
+    ROUNDABOUT,
+    arcs,
+    search,
+    search_roundabout,
+)
 from tactile_push.mechanics.compiled import Array, compiled
 
 # What more tries are not worth: a miss at the end [m, rad].
@@ -27,11 +34,15 @@ def plan(
     tries: int,
     more: int,
     rounds: int,
+    roundabout: bool,
     push: Array,
 ) -> tuple[float, float, float, float]:
     """Search from nothing and refine the best few; write the best push."""
-    found = np.empty((FAMILIES, 7))
-    search(start, goal, pushed, bounds, least, most, found)
+    found = np.empty((ROUNDABOUT if roundabout else FAMILIES, COLUMNS))
+    if roundabout:
+        search_roundabout(start, goal, pushed, bounds, least, most, found)
+    else:
+        search(start, goal, pushed, bounds, least, most, found)
     best = (math.inf, math.inf, math.inf, math.inf)
     trial = np.empty(UNKNOWNS)
     for k in range(more):

@@ -12,7 +12,7 @@ from tactile_push.control.placing.arcs import UNKNOWNS, rest_of
 from tactile_push.control.placing.learning import Spread, telling_command
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation
 from tactile_push.control.placing.past import Past
-from tactile_push.control.placing.planner import Plan, Planner
+from tactile_push.control.placing.planner import DETOUR, Plan, Planner
 from tactile_push.control.placing.reachability import Task
 from tactile_push.control.placing.stages import (
     LEARNING,
@@ -30,7 +30,12 @@ ACTING = (LEARNING, PLACING, LETTING_GO)
 KNOWN = 1e-3  # standard deviation of d below which the law commits itself [m]
 LEARNED_SHARE = 0.08  # of the belt, after which it does so anyhow; picked
 D_MARGIN, SPREADS = 2e-3, 1.0  # kept from the edge's ends [m], and deviations of d beside it
-DETOUR = 0.02  # belt of a plan that goes around once more, at least [m]
+# Nothing is let go of while less is known than these standard deviations [m, rad]: so much belt [m]
+# is kept before the end, but for no longer than a share of all the belt; picked.
+SURE, SURE_ANGLE, KEPT_BACK, KEPT_SHARE = 3.5e-4, math.radians(0.3), 0.01, 0.05
+# Belt at the end of a plan on which a turn that differs from what is believed is made up for [m],
+# the share by which it may differ though c is known, and the drift for which that is worth while.
+LAST_TURN, OWN_DOUBT, CLEAR_DRIFT = 0.02, 0.02, 0.2
 X_MARGIN = 1e-3  # kept from the ends of the workspace [m]
 LARGEST_ANGLE = math.radians(50.0)  # of theta in plans
 
@@ -127,6 +132,7 @@ class PlaceLaw(PushLaw):
         self._planned_at = math.nan  # on the belt's way [m]
         self._free_at = math.inf  # where the object is let go, on the belt's way [m]
         self._aim = math.nan
+        self._kept_since = math.inf  # belt used when the end was near for the first time [m]
         self._planner.forget()
 
     def end(self, stage: str) -> None:
@@ -231,24 +237,34 @@ class PlaceLaw(PushLaw):
         if self.stage == LEARNING and known:
             self.stage = PLACING
         if self.stage == LEARNING:
-            cos, sin = friction_cone(belief.friction[0])
-            slippery = belief.pushed._replace(cos_alpha=cos, sin_alpha=sin)
+            slippery = _others(belief)[0]
             u = telling_command(now, belief.pushed, slippery, bounds, belief.spread, self._aim)
         else:
-            u = self._place(now, belief.pushed, bounds, self.belt - self.used)
+            u = self._place(now, belief, bounds, self.belt - self.used)
         self.phi = motion_angle(u, 1.0)
 
-    def _place(self, now: Situation, pushed: Pushed, bounds: Bounds, left: float) -> float:
+    def _place(self, now: Situation, belief: Belief, bounds: Bounds, left: float) -> float:
         """Plan anew and return the command of the next period."""
         most, last = max(left, 0.0), self._piece + self._delay
         way = 0.0 if math.isnan(self._planned_at) else self._past.way - self._planned_at
         self._planned_at = self._past.way
-        self.plan = self._planner.plan(now, pushed, self.goal, most, way=way, bounds=bounds)
-        if self.plan is not None and self.plan.length < last and not self.plan.near:
+        pushed, spread = belief.pushed, belief.spread
+        sure = spread.d <= SURE and spread.theta <= SURE_ANGLE
+        waits = not sure and self.used < self._kept_since + KEPT_SHARE * self.belt
+        plan = self._planner.plan(
+            *(now, pushed, self._upstream(now, belief), most),
+            others=_others(belief),
+            least=min(KEPT_BACK + self._delay, most) if waits else 0.0,
+            way=way,
+            bounds=bounds,
+        )
+        if plan is not None and plan.length < KEPT_BACK + last:
+            self._kept_since = min(self._kept_since, self.used)
+        if plan is not None and plan.length < last and not plan.near:
             self._planner.forget()
             least = min(DETOUR, most)
-            self.plan = self._planner.plan(now, pushed, self.goal, most, least=least, bounds=bounds)
-        plan = self.plan
+            plan = self._planner.plan(now, pushed, self.goal, most, least=least, bounds=bounds)
+        self.plan = plan
         ends = plan is not None and plan.near and plan.length < last
         if plan is not None and ends:
             self.tell_in = max(plan.length - self._delay, 0.0) / self._belt_speed
@@ -260,6 +276,22 @@ class PlaceLaw(PushLaw):
             ahead = -math.tan(now.theta + math.atan2(now.d, pushed.l))
             return min(max(ahead, -bounds.steepest), bounds.steepest)
         return plan.command(self._piece)
+
+    def _upstream(self, now: Situation, belief: Belief) -> Goal:
+        """Return the goal, moved against the object's drift there by what the turn may be wrong.
+
+        An object that turns more or less than believed is aside when theta is right. If it is too
+        far up the drift, it drifts to the goal; from too far down nothing short leads back.
+        """
+        if self.plan is None:
+            return self.goal
+        goal, pushed = self.goal, belief.pushed
+        d = now.d + pushed.r * (now.theta - goal.theta)  # on the leaf
+        drift = math.tan(goal.theta + math.atan2(d, pushed.l))  # towards smaller x
+        left = min(max(self.plan.length - self._piece, 0.0), LAST_TURN)
+        doubt = (belief.spread.log_c + OWN_DOUBT) * left
+        side = min(max(drift / CLEAR_DRIFT, -1.0), 1.0)
+        return goal._replace(x=goal.x + side * doubt)
 
     def _let_go(self, plan: Plan) -> None:
         """Let go at the end of a plan."""
@@ -278,3 +310,13 @@ class PlaceLaw(PushLaw):
         self.plan = replace(self.plan, push=rest)
         self._let_go(self.plan)
         return self.plan.command(self._piece)
+
+
+def _others(belief: Belief) -> tuple[Pushed, ...]:
+    """Return the object with the least friction, one between that and its own, and the most."""
+    pushed = belief.pushed
+    least, most = (friction_cone(mu_c) for mu_c in belief.friction)
+    own = math.atan2(pushed.sin_alpha, pushed.cos_alpha)
+    between = (math.atan2(least[1], least[0]) + own) / 2.0
+    cones = least, (math.cos(between), math.sin(between)), most
+    return tuple(pushed._replace(cos_alpha=cos, sin_alpha=sin) for cos, sin in cones)

@@ -3,8 +3,9 @@
 """Plans from what is believed of object and finger to the goal, again and again."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -29,6 +30,8 @@ SPARED, D_SPARED, X_SPARED, THETA_SPARED = 0.2, 1e-3, 2e-3, math.radians(5.0)
 # units.
 X_THERE, THETA_THERE, BEYOND = 2e-4, math.radians(0.2), 5.0
 X_NEAR, THETA_NEAR = 1e-3, math.radians(1.0)
+DETOUR = 0.02  # belt of a plan that goes around once more, at least [m]
+WIDEST = math.radians(65.0)  # of theta in plans, where nothing else arrives
 
 
 @dataclass(frozen=True)
@@ -76,6 +79,29 @@ class Plan:
         return float(mean / wanted)
 
 
+class Taken(NamedTuple):
+    """What a plan takes for granted."""
+
+    kind: int  # which object it is: 0 for what it is most likely
+    wide: bool  # whether it may be turned farther than one likes
+
+    def bounds(self, bounds: Bounds) -> Bounds:
+        """Return what a plan keeps to."""
+        return bounds._replace(theta_max=max(WIDEST, bounds.theta_max)) if self.wide else bounds
+
+
+class Look(NamedTuple):
+    """Which plan to look for."""
+
+    taken: Taken
+    spares: bool = False  # some of the bounds
+    least: float = 0.0  # belt [m]
+    roundabout: bool = False
+
+
+LIKELY = Taken(0, False)
+LIKELY_LOOKS = Look(LIKELY, spares=True), Look(LIKELY)
+
 Task = tuple[Situation, Goal, Pushed]
 
 
@@ -95,7 +121,8 @@ class Planner:
     def forget(self) -> None:
         """Begin from nothing with the next plan."""
         self._last: Plan | None = None
-        self._plans = 0
+        self._plans = self._looks = 0
+        self._taken = LIKELY  # what the last plan takes for granted
 
     def plan(
         self,
@@ -104,6 +131,7 @@ class Planner:
         goal: Goal,
         most: float,
         *,
+        others: Sequence[Pushed] = (),
         least: float = 0.0,
         way: float = 0.0,
         bounds: Bounds | None = None,
@@ -116,6 +144,10 @@ class Planner:
             From where and to where, under which numbers.
         most : float
             Belt that is left [m].
+        others : sequence of Pushed, optional
+            What the object may also be, always as many. While no plan arrives with what it is most
+            likely, one that arrives with one of these is followed: whether it is that shows on the
+            way.
         least : float, optional
             The shortest belt that the plan may take [m].
         way : float, optional
@@ -129,29 +161,44 @@ class Planner:
             The best one; None if contact is lost whatever is done.
         """
         bounds = bounds or self.bounds
-        spared = bounds._replace(
-            steepest=(1.0 - SPARED) * bounds.steepest,
-            x_min=bounds.x_min + X_SPARED,
-            x_max=bounds.x_max - X_SPARED,
-            d_min=bounds.d_min + D_SPARED,
-            d_max=bounds.d_max - D_SPARED,
-            theta_max=bounds.theta_max - THETA_SPARED,
-        )
-        task = now, goal, pushed
+        kinds = pushed, *others
         self._plans += 1
-        # What was spared of the steepness is for correcting the plan on its way.
-        steep = spared._replace(steepest=bounds.steepest)
+        taken = self._taken
         best = _first_that_arrives(
-            self._rest(task, one, least, most, way) for one in (steep, bounds)
+            self._rest((now, goal, kinds[taken.kind]), one, least, most, way)
+            # What was spared of the steepness is for correcting the plan on its way.
+            for one in (
+                _spared(taken.bounds(bounds))._replace(steepest=bounds.steepest),
+                taken.bounds(bounds),
+            )
         )
-        if best is None or not best.arrives or self._plans % LOOK_AROUND == 0:
+        arrives = best is not None and best.arrives
+        if not arrives or self._plans % LOOK_AROUND == 0:
             # One search in a period is what there is time for.
-            other = spared if best is None or self._plans % 2 == 0 else bounds
-            new = new_plan(task, other, least, most, TRIES)
-            if best is None or (new is not None and new.merit < best.merit - KEPT):
-                best = new
+            looks = LIKELY_LOOKS if arrives else _looks(len(kinds))
+            look = looks[self._looks % len(looks)]
+            self._looks += 1
+            other = look.taken.bounds(bounds)
+            new = new_plan(
+                (now, goal, kinds[look.taken.kind]),
+                _spared(other) if look.spares else other,
+                min(max(least, look.least), most),
+                most,
+                TRIES,
+                roundabout=look.roundabout,
+            )
+            if new is not None and self._is_better(new, look.taken, best):
+                best, self._taken = new, look.taken
         self._last = best
         return best
+
+    def _is_better(self, new: Plan, taken: Taken, best: Plan | None) -> bool:
+        """Return whether to go over to a new plan."""
+        if best is None:
+            return True
+        if taken != self._taken and new.arrives:
+            return taken == LIKELY or not best.arrives
+        return taken in (LIKELY, self._taken) and new.merit < best.merit - KEPT
 
     def _rest(
         self, task: Task, bounds: Bounds, least: float, most: float, way: float
@@ -166,7 +213,13 @@ class Planner:
 
 
 def new_plan(
-    task: Task, bounds: Bounds, least: float, most: float, tries: int = MORE_TRIES
+    task: Task,
+    bounds: Bounds,
+    least: float,
+    most: float,
+    tries: int = MORE_TRIES,
+    *,
+    roundabout: bool = False,
 ) -> Plan | None:
     """Plan from nothing.
 
@@ -180,6 +233,8 @@ def new_plan(
         Belt that it may take [m].
     tries : int, optional
         Pushes of the search that are refined at the most, if none of the first few arrives.
+    roundabout : bool, optional
+        Whether another push comes first; see `search`.
 
     Returns
     -------
@@ -187,8 +242,27 @@ def new_plan(
         The best one found; None if contact is lost whatever is done.
     """
     push = np.empty(UNKNOWNS)
-    told = plan(*task, bounds, least, most, TRIES, tries, ROUNDS, push)
+    told = plan(*task, bounds, least, most, TRIES, tries, ROUNDS, roundabout, push)
     return Plan(push, *told) if told[0] < math.inf else None
+
+
+def _looks(kinds: int) -> tuple[Look, ...]:
+    """Return which plans to look for, one after the other, while none arrives."""
+    others = (Look(Taken(kind, wide=False)) for kind in range(1, kinds))
+    farther = Look(LIKELY, least=DETOUR), Look(LIKELY, roundabout=True)
+    return *LIKELY_LOOKS, *others, *farther, Look(Taken(0, wide=True))
+
+
+def _spared(bounds: Bounds) -> Bounds:
+    """Return narrower bounds."""
+    return bounds._replace(
+        steepest=(1.0 - SPARED) * bounds.steepest,
+        x_min=bounds.x_min + X_SPARED,
+        x_max=bounds.x_max - X_SPARED,
+        d_min=bounds.d_min + D_SPARED,
+        d_max=bounds.d_max - D_SPARED,
+        theta_max=bounds.theta_max - THETA_SPARED,
+    )
 
 
 def _first_that_arrives(plans: Iterable[Plan | None]) -> Plan | None:

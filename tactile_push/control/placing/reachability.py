@@ -48,14 +48,18 @@ class Task:
     bounds: Bounds  #: what may not be left
     belt: float  #: what there is of it [m]
 
-    def plan(self, goal: Goal) -> Plan | None:
-        """Return the best plan for a goal."""
-        return new_plan((self.now, goal, self.pushed), self.bounds, 0.0, self.belt)
+    def plan(self, goal: Goal, *, roundabout: bool = False) -> Plan | None:
+        """Return the best plan for a goal, with another push first if it is `roundabout`."""
+        task = self.now, goal, self.pushed
+        return new_plan(task, self.bounds, 0.0, self.belt, roundabout=roundabout)
 
     def arrives(self, goal: Goal) -> bool:
         """Return whether there is a plan that gets to a goal."""
-        plan = self.plan(goal)
-        return plan is not None and plan.arrives
+        return _arrives(self.plan(goal))
+
+
+def _arrives(plan: Plan | None) -> bool:
+    return plan is not None and plan.arrives
 
 
 def at_once(plans: Generator[None, None, T]) -> T:
@@ -114,16 +118,19 @@ def judging(task: Task, goal: Goal) -> Generator[None, None, Reach]:
     Reach
         As `reach` does.
     """
-    plan = task.plan(goal)
-    yield
-    if plan is None or not plan.arrives:
-        reason = yield from _reason(task, goal)
-        return Reach(OUT_OF_REACH, reason, plan)
-    spared = with_reserve(task).plan(goal)
-    yield
-    if spared is not None and spared.arrives:
-        return Reach(WITH_RESERVE, '', spared)
-    return Reach(AT_THE_LIMITS, '', plan)
+    plans = []
+    for roundabout in (False, True):
+        plan = task.plan(goal, roundabout=roundabout)
+        yield
+        if _arrives(plan):
+            spared = with_reserve(task).plan(goal, roundabout=roundabout)
+            yield
+            if _arrives(spared):
+                return Reach(WITH_RESERVE, '', spared)
+            return Reach(AT_THE_LIMITS, '', plan)
+        plans.append(plan)
+    reason = yield from _reason(task, goal)
+    return Reach(OUT_OF_REACH, reason, plans[0])
 
 
 def with_reserve(task: Task) -> Task:

@@ -3,7 +3,8 @@
 """Searches pushes of a few arcs over all the belt that is left.
 
 The search tries pushes that turn the object, let it translate and turn it again, and pushes of two
-arcs, which on a leaf without bounds are the shortest ones (docs/placing.md).
+arcs, which on a leaf without bounds are the shortest ones (docs/placing.md). Where none of them
+leads to the goal, another push before the first turn may: it brings the contact elsewhere.
 """
 
 import math
@@ -27,6 +28,12 @@ SECOND = (-1.0, -0.4, 0.4)  # of the second of two arcs
 ANGLES = 25  # at which the search lets the object translate
 FAMILIES = ANGLES * len(STEEPNESSES) + 2 * len(STEEPNESSES) * len(SECOND)
 LONGEST_TURN = 0.08  # belt of one turn in the search [m]
+COLUMNS = 1 + UNKNOWNS  # of what the search finds: cost, commands, and belt to the end of each [m]
+# Pushes before the first turn, commands as shares of the steepest and belt [m], and how often the
+# search lets the object translate after each, at which steepnesses.
+FIRST, FIRST_WAYS = (-1.0, -0.5, 0.5, 1.0), (0.009, 0.021, 0.042)
+FEW_ANGLES, FEW_STEEPNESSES = 13, (1.0, 0.55)
+ROUNDABOUT = len(FIRST) * len(FIRST_WAYS) * FEW_ANGLES * len(FEW_STEEPNESSES)
 # How far the search may go beyond bounds: d, x [m], theta [rad].
 D_GRACE, X_GRACE, THETA_GRACE = 1e-3, 1e-3, math.radians(3.0)
 
@@ -91,21 +98,22 @@ def search(
 ) -> None:
     """Find pushes of three arcs (turn, translate, turn) and of two, over every length.
 
-    A row of `found` is cost, commands of the three arcs, and the belt to the end of each [m]. The
-    cost is the square of what is missed, in millimetres and degrees, and the belt in `LENGTH`s.
+    A row of `found` is cost, commands of four arcs, and the belt to the end of each [m]. The cost
+    is the square of what is missed, in millimetres and degrees, and the belt in `LENGTH`s.
     """
     row, theta_max = 0, bounds.theta_max
     bounds = _widened(start, bounds)
     for i in range(ANGLES):
         angle = theta_max * (2.0 * i / (ANGLES - 1) - 1.0)
         for steepness in STEEPNESSES:
-            found[row, 0] = math.inf
             first, first_u, first_s, there = _turn(start, angle, steepness, pushed, bounds)
+            found[row, 0] = math.inf
             if there:
-                _translate(
-                    *(first, first_u, first_s, steepness, goal, pushed, bounds, least, most),
-                    found[row],
+                cost, drift, way, last_u, length = _translate(
+                    first, first_s, steepness, goal, pushed, bounds, least, most
                 )
+                _write(found[row], cost, first_u, drift, drift, last_u)
+                _write_ends(found[row], first_s, first_s + way / 2.0, first_s + way, length)
             row += 1
     h = SEARCH_STEP
     for sign in (-1.0, 1.0):
@@ -127,9 +135,61 @@ def search(
 
 
 @compiled
+def search_roundabout(
+    start: Situation,
+    goal: Goal,
+    pushed: Pushed,
+    bounds: Bounds,
+    least: float,
+    most: float,
+    found: Array,
+) -> None:
+    """Find pushes of four arcs, another push before turn, translation and turn.
+
+    The arguments are those of `search`, but for `ROUNDABOUT` rows.
+    """
+    row, theta_max = 0, bounds.theta_max
+    bounds = _widened(start, bounds)
+    found[:ROUNDABOUT, 0] = math.inf
+    for share in FIRST:
+        now, s, inside = start, 0.0, True
+        command = share * bounds.steepest
+        for end in FIRST_WAYS:
+            while inside and s < end - SEARCH_STEP / 2.0:
+                now, pushes = step(now, command, SEARCH_STEP, pushed)
+                inside = pushes and not _is_outside(now, bounds)
+                s += SEARCH_STEP
+            for i in range(FEW_ANGLES):
+                angle = theta_max * (2.0 * i / (FEW_ANGLES - 1) - 1.0)
+                for steepness in FEW_STEEPNESSES:
+                    if inside:
+                        first, first_u, first_s, there = _turn(
+                            now, angle, steepness, pushed, bounds
+                        )
+                        if there:
+                            cost, drift, way, last_u, length = _translate(
+                                first, s + first_s, steepness, goal, pushed, bounds, least, most
+                            )
+                            _write(found[row], cost, command, first_u, drift, last_u)
+                            _write_ends(found[row], s, s + first_s, s + first_s + way, length)
+                    row += 1
+
+
+@equation
+def _write(row: Array, cost: float, a: float, b: float, c: float, d: float) -> None:
+    """Write cost and commands of a push."""
+    row[0], row[1], row[2], row[3], row[4] = cost, a, b, c, d
+
+
+@equation
+def _write_ends(row: Array, a: float, b: float, c: float, d: float) -> None:
+    """Write the belt to the end of each arc [m]."""
+    row[5], row[6], row[7], row[8] = a, b, c, d
+
+
+@compiled
 def _translate(
     now: Situation,
-    first_u: float,
     first_s: float,
     steepness: float,
     goal: Goal,
@@ -137,29 +197,31 @@ def _translate(
     bounds: Bounds,
     least: float,
     most: float,
-    best: Array,
-) -> None:
-    """Translate from where the first turn ended, as long as the last one asks for."""
+) -> tuple[float, float, float, float, float]:
+    """Translate from where the first turn ended, as long as the last one asks for.
+
+    Returns cost, command and belt of the translation [m], command of the last turn and belt in all
+    [m]; an infinite cost if it is not possible.
+    """
+    nothing = math.inf, 0.0, 0.0, 0.0, 0.0
     # What turns on the way there goes on while the finger gets to its new command.
     drift = -math.tan(now.theta + math.atan2(now.d, pushed.l))
     if abs(drift) > bounds.steepest:
-        return
+        return nothing
     rest = Situation(now.x, now.theta, now.d, drift, drift)
     after, last_u, last_s, there = _turn(rest, goal.theta, steepness, pushed, bounds)
     if not there:
-        return
+        return nothing
     missing = goal.x - centre_of_mass(after, pushed)
     way = missing / drift if drift != 0.0 else 0.0
     longest = max(most - first_s - last_s, 0.0)
     way = min(max(way, least - first_s - last_s, 0.0), longest)
     end = now.x + drift * way
     if first_s + last_s > most or end < bounds.x_min or end > bounds.x_max:
-        return
+        return nothing
     x_error = (missing - drift * way) / 1e-3
     length = first_s + way + last_s
-    cost = x_error * x_error + length / LENGTH
-    best[0], best[1], best[2], best[3] = cost, first_u, drift, last_u
-    best[4], best[5], best[6] = first_s, first_s + way, length
+    return x_error * x_error + length / LENGTH, drift, way, last_u, length
 
 
 @compiled
@@ -188,15 +250,15 @@ def _branch(
             theta_error = math.degrees(now.theta - goal.theta)
             cost = x_error * x_error + theta_error * theta_error + s / LENGTH
             if cost < best[0]:
-                best[0], best[1], best[2], best[3] = cost, first, second, second
-                best[4], best[5], best[6] = switch, switch, s
+                _write(best, cost, first, second, second, second)
+                _write_ends(best, switch, switch, switch, s)
 
 
 @compiled
 def arcs(row: Array, push: Array) -> None:
-    """Write a row of the search as a push; what it translates is two arcs."""
-    push[0], push[1], push[2], push[3] = row[1], row[2], row[2], row[3]
-    half = (row[5] - row[4]) / 2.0
-    push[4], push[5], push[6], push[7] = row[4], half, half, row[6] - row[5]
-    for i in range(ARCS, UNKNOWNS):
-        push[i] /= LENGTH
+    """Write a row of the search as a push."""
+    for i in range(ARCS):
+        push[i] = row[1 + i]
+        push[ARCS + i] = row[1 + ARCS + i] / LENGTH
+    for i in range(UNKNOWNS - 1, ARCS, -1):
+        push[i] -= push[i - 1]

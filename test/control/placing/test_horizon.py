@@ -32,9 +32,10 @@ def pushed(mu_c=math.inf, r=R):
     return Pushed(L, r, pressure, *friction_cone(mu_c), 0.0, 0.0)
 
 
-def planned(start, goal, numbers, bounds, most=0.3):
+def planned(start, goal, numbers, bounds, most=0.3, roundabout=False):
     push = np.empty(UNKNOWNS)
-    told = horizon.plan(start, goal, numbers, bounds, 0.0, most, 3, 8, 15, push)
+    task = start, goal, numbers, bounds, 0.0, most
+    told = horizon.plan(*task, 3, 8, 15, roundabout, push)
     return push, told
 
 

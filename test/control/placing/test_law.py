@@ -41,8 +41,8 @@ def belief(now, d_spread=1e-4):
     return Belief(now.x, now.theta, now.d, PUSHED, (math.inf, math.inf), ENDS, spread)
 
 
-def driven(one, d_spread=1e-4, now=START, periods=600, known_every=1, felt_every=1):
-    """Let a law push an object that is what it believes it to be; return where it ends.
+def driven(one, d_spread=1e-4, now=START, periods=600, known_every=1, felt_every=1, truth=PUSHED):
+    """Let a law push an object; return where it ends.
 
     What is believed may be known, and the object felt, in some periods only.
     """
@@ -62,7 +62,7 @@ def driven(one, d_spread=1e-4, now=START, periods=600, known_every=1, felt_every
         before, way = now, PIECE
         if one.stage == RELEASED:
             way = one.let_go_in * BELT_SPEED
-        now = follow(now, 1.0 / math.tan(phi), way, PUSHED)
+        now = follow(now, 1.0 / math.tan(phi), way, truth)
         if one.stage in (RELEASED, MISSED):
             break
     return now
@@ -84,6 +84,19 @@ def test_it_lets_go_within_the_period_in_which_the_object_is_there():
     assert end.theta == pytest.approx(0.0, abs=math.radians(0.1))
 
 
+@pytest.mark.parametrize('share', [0.94, 1.06])
+def test_an_object_that_turns_otherwise_than_believed_need_not_go_around_once_more(share):
+    goal = Goal(-0.03, 0.3)
+    as_believed, otherwise = law(goal), law(goal)
+    pressure = PUSHED.pressure._replace(c_squared=share * PUSHED.pressure.c_squared)
+    driven(as_believed)
+    end = driven(otherwise, truth=PUSHED._replace(pressure=pressure))
+    assert otherwise.stage == RELEASED
+    assert centre_of_mass(end, PUSHED) == pytest.approx(goal.x, abs=3e-4)
+    assert end.theta == pytest.approx(goal.theta, abs=math.radians(0.3))
+    assert otherwise.used < as_believed.used + 0.01
+
+
 def test_it_commits_itself_when_d_is_known():
     one = law()
     driven(one, d_spread=3e-3, periods=20)
@@ -96,6 +109,21 @@ def test_it_does_not_learn_for_ever():
     one = law(belt=0.05)
     driven(one, d_spread=3e-3, periods=50)
     assert one.stage != LEARNING
+
+
+def test_nothing_is_let_go_while_d_is_not_known_well():
+    sure, unsure = law(), law()
+    driven(sure)
+    driven(unsure, d_spread=4e-4, periods=round(sure.used / PIECE) + 10)
+    assert sure.stage == RELEASED
+    assert unsure.stage == PLACING
+
+
+def test_it_does_not_wait_for_ever():
+    one = law()
+    end = driven(one, d_spread=4e-4)
+    assert one.stage == RELEASED
+    assert centre_of_mass(end, PUSHED) == pytest.approx(-0.02, abs=1e-4)
 
 
 def test_at_the_end_of_the_belt_it_says_that_it_has_missed_and_does_not_let_go():

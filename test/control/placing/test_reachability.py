@@ -82,7 +82,8 @@ def test_the_nearest_goal_to_one_in_reach_is_itself():
 @pytest.mark.parametrize('looking', [judging, nearing])
 def test_a_look_pauses_after_each_plan(looking, monkeypatch):
     plans = []
-    monkeypatch.setattr(Task, 'plan', lambda self, goal: plans.append(goal))  # and none is found
+    # And none is found.
+    monkeypatch.setattr(Task, 'plan', lambda self, goal, **_: plans.append(goal))
     for pauses, _ in enumerate(looking(task(), Goal(0.0, 0.0)), 1):
         assert len(plans) == pauses
     assert len(plans) == pauses > 4

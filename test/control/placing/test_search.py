@@ -15,7 +15,14 @@ from tactile_push.control.placing.model import (
     centre_of_mass,
     follow,
 )
-from tactile_push.control.placing.search import FAMILIES, arcs, search
+from tactile_push.control.placing.search import (
+    COLUMNS,
+    FAMILIES,
+    ROUNDABOUT,
+    arcs,
+    search,
+    search_roundabout,
+)
 from tactile_push.mechanics.resistance import Pressure
 
 PRESSURE = Pressure(0.0187**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))
@@ -24,9 +31,10 @@ BOUNDS = Bounds(1.5, 1e9, -0.1, 0.1, -0.022, 0.022, 0.8)
 START = Situation(0.0, 0.2, 0.003, 0.0, 0.0)
 
 
-def searched(goal, most=0.2):
-    found = np.empty((FAMILIES, 7))
-    search(START, goal, NUMBERS, BOUNDS, 0.0, most, found)
+def searched(goal, most=0.2, roundabout=False):
+    found = np.empty((ROUNDABOUT if roundabout else FAMILIES, COLUMNS))
+    searching = search_roundabout if roundabout else search
+    searching(START, goal, NUMBERS, BOUNDS, 0.0, most, found)
     return found[np.isfinite(found[:, 0])]
 
 
@@ -39,9 +47,10 @@ def followed(row):
     return now, push
 
 
+@pytest.mark.parametrize('roundabout', [False, True])
 @pytest.mark.parametrize('goal', [Goal(-0.03, -0.1), Goal(0.01, 0.3)])
-def test_the_best_of_what_it_finds_costs_what_it_misses(goal):
-    found = searched(goal)
+def test_the_best_of_what_it_finds_costs_what_it_misses(goal, roundabout):
+    found = searched(goal, roundabout=roundabout)
     row = found[np.argmin(found[:, 0])]
     now, push = followed(row)
     x, theta = centre_of_mass(now, NUMBERS) - goal.x, now.theta - goal.theta
@@ -50,13 +59,15 @@ def test_the_best_of_what_it_finds_costs_what_it_misses(goal):
     assert row[0] == pytest.approx(belt + (1e3 * x) ** 2 + math.degrees(theta) ** 2, abs=0.5)
 
 
-def test_all_that_it_finds_keeps_to_belt_and_steepest_command():
-    found = searched(Goal(-0.03, -0.1), most=0.1)
+@pytest.mark.parametrize('roundabout', [False, True])
+def test_all_that_it_finds_keeps_to_belt_and_steepest_command(roundabout):
+    found = searched(Goal(-0.03, -0.1), most=0.1, roundabout=roundabout)
     assert len(found) > FAMILIES / 4
-    assert (found[:, 4:] >= 0.0).all()
-    assert (np.diff(found[:, 4:]) >= 0.0).all()
-    assert found[:, 6].max() <= 0.1 + 1e-12
-    assert np.abs(found[:, 1:4]).max() <= BOUNDS.steepest
+    commands, ends = found[:, 1 : 1 + ARCS], found[:, 1 + ARCS :]
+    assert (ends >= 0.0).all()
+    assert (np.diff(ends) >= 0.0).all()
+    assert ends.max() <= 0.1 + 1e-12
+    assert np.abs(commands).max() <= BOUNDS.steepest
 
 
 def test_on_a_belt_too_short_for_the_turn_what_it_finds_misses_the_rest_of_it():
