@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: 2026 The tactile_push authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs of a group: what was promised in advance, and how it ended."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from deliveries.cases import WORKSPACE, Case, Group, case, long_search, rig_of
+from deliveries.rivals import Rival
+from tactile_push import paper
+from tactile_push.control.placing.law import Belief, PlaceLaw
+from tactile_push.control.placing.model import Bounds, Situation
+from tactile_push.control.placing.reachability import Task, reach
+from tactile_push.control.placing.stages import LEARNING, OUT_OF_REACH, RELEASED, WITH_RESERVE
+from tactile_push.estimation import ActiveSensing, FingerMotion, ObjectEstimator
+from tactile_push.simulation.placement import Placement, place
+
+TIMEOUT = 0.3  # of the contact [s]
+ENOUGH = 0.5  # [mm] and degrees within which a goal counts as reached
+
+
+class WatchedLaw(PlaceLaw):
+    """Remembers what was believed when it committed itself."""
+
+    believed: Belief | None = None
+    _committed: Belief | None = None
+
+    def believe(self, belief: Belief | None, age: float = 0.0) -> None:
+        """Take what is believed, as in `PlaceLaw`."""
+        super().believe(belief, age)
+        self.believed = belief
+
+    def update(self, theta: float) -> float:
+        """Give the push angle, as in `PlaceLaw`."""
+        learning = self.stage == LEARNING
+        phi = super().update(theta)
+        if learning and self.stage != LEARNING:
+            self._committed = self.believed
+        return phi
+
+    def promise(self, bounds: Bounds) -> str:
+        """Return the verdict on its goal under what it believed; empty if it never knew."""
+        known = self._committed
+        if known is None:
+            return ''
+        now = Situation(known.x, known.theta, known.d, 0.0, 0.0)
+        bounds = bounds._replace(d_min=known.ends[0], d_max=known.ends[1])
+        return reach(Task(now, known.pushed, bounds, self.belt), self.goal).verdict
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one run showed."""
+
+    seed: int
+    verdict: str  # of `reach` under the true numbers, before anything moves
+    promise: str  # the same under what was believed when the law committed itself; may be empty
+    shortest: float  # belt that a long search under the true numbers finds [m]; NaN if none
+    placement: Placement | None  # None if it was not run
+
+    @property
+    def error(self) -> float:
+        """The larger of the errors in millimetres and in degrees."""
+        p = self.placement
+        if p is None:
+            return math.nan
+        return max(1e3 * abs(p.x_error), math.degrees(abs(p.theta_error)))
+
+    @property
+    def placed(self) -> bool:
+        """Whether the object was let go at the goal."""
+        return self.placement is not None and self.let_go and self.error <= ENOUGH
+
+    @property
+    def let_go(self) -> bool:
+        """Whether it was let go at all."""
+        return self.placement is not None and self.placement.stage == RELEASED
+
+
+def law_for(one: Case, group: Group) -> PlaceLaw | Rival:
+    """Return the law of a group, for a case."""
+    piece = paper.CONTROL_PERIOD * one.config.belt_speed
+    if group.law != 'plans':
+        return Rival(one.goal, group.belt, piece, cascade=group.law == 'cascade')
+    return WatchedLaw(
+        *(one.goal, group.belt, one.config.belt_speed, paper.CONTROL_PERIOD),
+        lag=group.lag,
+        workspace=WORKSPACE,
+    )
+
+
+def sensing_for(one: Case, group: Group, tilt: float = 0.0) -> ActiveSensing:
+    """Return an estimator that is told the outline, and l as the group has it.
+
+    l is wrong upwards in the runs of even seeds, downwards in the others.
+    """
+    wrong = 1.0 + (group.l_error if one.seed % 2 == 0 else -group.l_error)
+    radius = one.config.radius
+    edge = replace(one.edge, l=one.edge.l * wrong)
+    estimator = ObjectEstimator(
+        *((edge,), math.radians(group.noise)),
+        l_share=group.l_share,
+        radius=radius,
+        radius_share=group.l_share,
+        outlier=max(group.outlier, 0.001),
+        tilt=tilt,
+    )
+    motion = FingerMotion(group.lag)
+    return ActiveSensing(estimator, motion, one.config.belt_speed, TIMEOUT, radius=radius)
+
+
+def run(seed: int, group: Group, every: bool) -> Outcome:
+    """Draw a case and run it, if it is reachable with reserve or `every` case is to be run."""
+    one = case(seed, group)
+    if one.verdict != WITH_RESERVE and not every:
+        return Outcome(seed, one.verdict, '', math.nan, None)
+    law = law_for(one, group)
+    sensing = None if group.state_told else sensing_for(one, group)
+    placed = place(rig_of(one, group), law, sensing=sensing, seed=seed)
+    promise = law.promise(one.task.bounds) if isinstance(law, WatchedLaw) and sensing else ''
+    return Outcome(seed, one.verdict, promise, long_search(one.task, one.goal), placed)
+
+
+def row(name: str, outcomes: list[Outcome], within: tuple[float, ...]) -> tuple[str, ...]:
+    """Return the cells of a group's runs that are reachable with reserve."""
+    some = [one for one in outcomes if one.verdict == WITH_RESERVE and one.placement is not None]
+    if not some:
+        return name, '0'
+    error = np.array([one.error if one.let_go else math.inf for one in some])
+    shares = [f'{np.mean(error <= most):.1%}' for most in within]
+    x = np.abs([1e3 * one.placement.x_error for one in some])
+    theta = np.degrees(np.abs([one.placement.theta_error for one in some]))
+    errors = [f'{np.median(e):.2f}, {np.quantile(e, 0.95):.2f}' for e in (x, theta)]
+    placed = [one for one in some if one.placed]
+    belt = learned = ratio = ''
+    if placed:
+        belt = f'{1e3 * np.median([one.placement.belt for one in placed]):.0f}'
+        learned = f'{1e3 * np.median([one.placement.learned for one in placed]):.0f}'
+        ratio = f'{np.nanmedian([one.placement.belt / one.shortest for one in placed]):.2f}'
+    return name, str(len(some)), *shares, *errors, belt, learned, ratio
+
+
+def judged(told: list[Outcome], estimated: list[Outcome]) -> list[tuple[str, ...]]:
+    """Return how often goals were refused and promised, and how often wrongly.
+
+    `told` and `estimated` are the same cases, all of them run. An oracle does what the run that is
+    told the truth does, or a long search.
+    """
+    oracle = {one.seed: one.placed or not math.isnan(one.shortest) for one in told}
+    done = {one.seed: one.placed for one in told}
+    rows = []
+    for name, outcomes, verdict in (
+        ('in advance, numbers told', told, 'verdict'),
+        ('once committed, as believed', estimated, 'promise'),
+    ):
+        verdicts = {one.seed: getattr(one, verdict) for one in outcomes if getattr(one, verdict)}
+        can = [seed for seed in verdicts if oracle[seed]]
+        refused = [seed for seed in can if verdicts[seed] == OUT_OF_REACH]
+        promised = [seed for seed in verdicts if verdicts[seed] != OUT_OF_REACH]
+        broken = [seed for seed in promised if not done[seed]]
+        rows.append(
+            (
+                name,
+                f'{len(verdicts)}',
+                f'{len(can)}',
+                _share(len(refused), len(can)),
+                f'{len(promised)}',
+                _share(len(broken), len(promised)),
+            )
+        )
+    return rows
+
+
+def _share(some: int, of: int) -> str:
+    return f'{some} ({some / of:.1%})' if of else '0'
