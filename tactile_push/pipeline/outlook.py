@@ -10,6 +10,7 @@ from tactile_push.control.placing.model import Goal
 from tactile_push.control.placing.reachability import Task, judging, nearing
 from tactile_push.control.placing.stages import OUT_OF_REACH, UNKNOWN
 
+VAGUE = 3e-3  # deviation of d beyond which a look would tell chance [m]; picked
 BETTER = 0.5  # of the deviation of d at the last look, below which to look again; picked
 
 
@@ -40,7 +41,7 @@ class ReachOutlook:
         law, goal, deviation : PlaceLaw, Goal, float
             The law, which knows from where; where to; standard deviation of d [m].
         """
-        if deviation < BETTER * self._deviation:
+        if deviation < min(VAGUE, BETTER * self._deviation):
             task = law.task()
             if task is None:
                 return

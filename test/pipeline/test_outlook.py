@@ -63,7 +63,8 @@ def test_of_a_goal_out_of_reach_the_reason_comes_first_and_the_nearest_goal_late
 
 def test_it_looks_again_when_d_is_twice_as_well_known(plans):
     outlook = ReachOutlook()
-    for deviation, made in ((8e-3, 1), (5e-3, 2), (3e-3, 3), (2.5e-3, 4), (2e-3, 4), (1e-3, 5)):
+    # As long as d may be nearly anywhere there is nothing to look from.
+    for deviation, made in ((8e-3, 0), (2.9e-3, 1), (2e-3, 2), (1.4e-3, 3), (1e-3, 4), (0.8e-3, 4)):
         outlook.look(law(), NEAR, deviation)
         assert len(plans) == made
 
