@@ -18,6 +18,7 @@ from tactile_push.interface import (
     FINGER_DISK,
     JOINT_STATES,
     OBJECT_POSE,
+    PUSH,
     PUSH_CONTROLLER,
     SERVO_STATE,
     TACTILE,
@@ -29,6 +30,7 @@ AZIMUTH, ELEVATION = TOPICS[TACTILE].field_names[:2]
 FRAMES = {CONTACT: FINGER_DISK, COMMAND: FINGER_BASE, OBJECT_POSE: FINGER_DISK}
 READINGS_A_PERIOD = 2.0  # so that the next one corrects an outlier
 SLACK = 0.25  # share by which a rate may be off; picked: a busy machine loses some to the doctor
+FINGER_LAG = 'finger_lag'  # which a controller with law (18) does without
 # Parameters that have to be the same for every node that declares them.
 COMMON = {*(vars(shared).keys() - {'autostart'}), 'contact_timeout', 'control_rate'}
 
@@ -138,7 +140,8 @@ def parameters_agree(seen: Snapshot) -> Iterator[Finding]:
     known: dict[str, dict[str, object]] = {}
     for node, values in seen.parameters.items():
         for one in PARAMETERS[node].declared():
-            if one.name in COMMON and one.name in values:
+            used = values.get('law') != PUSH or one.name != FINGER_LAG
+            if one.name in COMMON and one.name in values and used:
                 known.setdefault(one.name, {})[node] = values[one.name]
     for name, by_node in known.items():
         if len(by_node) < 2:

@@ -8,6 +8,7 @@ import pytest
 from support.finger_seen import ANGLES, LOOP, WELL, changed, ends, faults
 from tactile_push.doctor import WRONG, Heard
 from tactile_push.interface import (
+    ACTIVE_SENSING,
     CLOCK,
     CONTACT,
     CONTACT_GEOMETRY,
@@ -109,3 +110,11 @@ def test_controller_waits_while_nothing_touches_the_tip():
     assert faults(untouched) == []
     (fault,) = faults(changed(health=WAITING))  # though the tip is touched
     assert (fault.subject, fault.words) == (PUSH_CONTROLLER, 'reports: waiting for contact')
+
+
+@pytest.mark.parametrize('law', ['push', 'place'])
+def test_the_finger_s_lag_has_to_be_the_same_for_a_law_that_plans_with_it(law):
+    controller = {**WELL.parameters[PUSH_CONTROLLER], 'law': law, 'finger_lag': 0.0}
+    seen = changed(parameters={PUSH_CONTROLLER: controller, ACTIVE_SENSING: {'finger_lag': 0.1}})
+    wrong = [fault.subject for fault in faults(seen)]
+    assert ('finger_lag' in wrong) == (law == 'place')
