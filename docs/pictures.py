@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the pictures of the tutorials: `python docs/pictures.py`.
+"""Draws the pictures of the pages: `python docs/pictures.py`.
 
 Sensors and the person who touches them are simulated; the same seeds give the same pictures.
 """
@@ -19,6 +19,7 @@ from tactile_push.calibration.coverage import QUARTERS, suggested_touches
 from tactile_push.calibration.picture import draw_camera, draw_tip
 from tactile_push.calibration.touch_table import KnownTouch
 from tactile_push.calibration.wrench_fit import fit_tip
+from tactile_push.figures import settling_figure
 from tactile_push.figures.style import BLUE, GREY, ORANGE, RED, TWO_COLUMNS, new_figure, styled
 from tactile_push.parameters.camera_sensor import CameraSensorParameters
 from tactile_push.simulation.dome_image import DomeImages, DomeView
@@ -148,10 +149,16 @@ def draw_wrenches(file: Path) -> None:
     draw_tip(fit_tip(forces, moments, directions, np.eye(3)), known, file)
 
 
+def draw_settling(file: Path) -> None:
+    """Draw how soon theta is at its angle."""
+    settling_figure().savefig(file, dpi=DOTS)
+
+
 PICTURES: dict[tuple[str, ...], Callable[..., None]] = {
     ('touches.png',): draw_touches,
     ('camera_contact.png', 'camera_calibration.png'): draw_cameras,
     ('wrench_calibration.png',): draw_wrenches,
+    ('settling.png',): draw_settling,
 }
 
 

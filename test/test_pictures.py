@@ -48,4 +48,4 @@ def test_picture_is_what_the_package_draws(drawn, name):
 
 def test_each_picture_is_shown_on_a_page():
     pages = ''.join(page.read_text(encoding='utf-8') for page in DOCS.rglob('*.md'))
-    assert sorted(set(re.findall(r'\.\./pictures/(\w+\.png)', pages))) == NAMES
+    assert sorted(set(re.findall(r'\((?:\.\./)?pictures/(\w+\.png)', pages))) == NAMES

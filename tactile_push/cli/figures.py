@@ -13,10 +13,11 @@ def add(commands: Commands) -> None:
     """Add the command."""
     figures = commands.add_parser(
         'figures',
-        help='make figures 2, 3, 6, 7 and 8 of the paper, a map of the gains, and the drift',
+        help='make figures 2, 3, 6, 7 and 8 of the paper, a map of gains, the drift, and a turn',
         description='Writes figures 2, 3, 6, 7 and 8 of the paper, made by the library, a map of '
-        'the gains that settle the block with a finger that lags behind its command, and the drift '
-        'of the block while the finger tip turns, as PNG and SVG.',
+        'the gains that settle the block with a finger that lags behind its command, the drift '
+        'of the block while the finger tip turns, and how soon theta is at its angle by all that '
+        'is known, as PNG and SVG.',
     )
     figures.add_argument(
         '-o',

@@ -8,6 +8,7 @@ from tactile_push.figures.limit_surfaces import limit_surface_figure, section_fi
 from tactile_push.figures.motion_cones import motion_cone_figure
 from tactile_push.figures.placing import PlacedWay, plot_placed
 from tactile_push.figures.save import save_figures
+from tactile_push.figures.settling import settling_figure
 from tactile_push.figures.simulations import step_response_figure, trajectory_figure
 from tactile_push.figures.slow_mode import slow_mode_figure
 
@@ -20,6 +21,7 @@ __all__ = [
     'plot_placed',
     'save_figures',
     'section_figure',
+    'settling_figure',
     'slow_mode_figure',
     'step_response_figure',
     'trajectory_figure',

@@ -59,6 +59,7 @@ def test_svg_is_xml_with_its_text_as_text_and_without_a_date(saved, number):
         8: '400',
         'gains': 'lag 0.1 s',
         'slow_mode': 'step 400',
+        'settling': 'law (18)',
     }
     assert expected[number] in texts
 

@@ -11,6 +11,7 @@ from tactile_push.figures import (
     limit_surface_figure,
     motion_cone_figure,
     section_figure,
+    settling_figure,
     slow_mode_figure,
     step_response_figure,
     trajectory_figure,
@@ -24,6 +25,7 @@ MAKERS = {
     8: step_response_figure,
     'gains': gain_figure,
     'slow_mode': slow_mode_figure,
+    'settling': settling_figure,
 }
 FILES = {figure: f'figure_{figure}' if isinstance(figure, int) else figure for figure in MAKERS}
 BLOCK = 5.0, 4.75  # cm
