@@ -112,6 +112,7 @@ def command_parser() -> tuple[Parser, Commands]:
         identify,
         info,
         play,
+        reach,
         record,
         replay,
         report,
@@ -124,7 +125,7 @@ def command_parser() -> tuple[Parser, Commands]:
         description='Turn and locate objects by pushing them with one tactile finger.',
     )
     commands = parser.add_subparsers(required=True, metavar='COMMAND', dest='command')
-    runs = demo, simulate, figures, doctor, watch, record, play
+    runs = demo, simulate, reach, figures, doctor, watch, record, play
     for command in (*runs, replay, estimate, info, diff, report, calibrate, identify):
         command.add(commands)
     return parser, commands

@@ -10,21 +10,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tactile_push.cli.arguments import Commands, Refused, number, picture, steps
+from tactile_push.cli.pushed_object import FACING, LENGTH, add_object, add_start, config_of
 from tactile_push.cli.simulated_laws import DEFAULTS, LAWS, Simulated, check_law
-from tactile_push.paper import (
-    BLOCK,
-    BLOCK_DEPTH,
-    BLOCK_EDGE,
-    D_INITIAL,
-    DISK,
-    DISK_RADIUS,
-    THETA_INITIAL,
-    TOLERANCE,
-)
+from tactile_push.paper import TOLERANCE
 
 if TYPE_CHECKING:
-    from tactile_push.mechanics import Support
-    from tactile_push.simulation import ObjectFile, RigConfig
+    from tactile_push.simulation import RigConfig
 
 
 def add(commands: Commands) -> None:
@@ -38,23 +29,7 @@ def add(commands: Commands) -> None:
         formatter_class=argparse.ArgumentDefaultsHelpFormatter,
     )
     option = simulate.add_argument
-    option('--object', default=BLOCK, metavar='block|disk|FILE', help='what is pushed (FILE: JSON)')
-    option(
-        '--support',
-        default=argparse.SUPPRESS,
-        metavar='corners|uniform|circle:RADIUS_M|rim|FILE',
-        help='what the object rests on; RADIUS_M in metres, FILE is JSON (default: as the file of '
-        'the object says, otherwise uniform)',
-    )
-    option('--surface', default='ellipsoid', choices=('ellipsoid', 'exact'), help='limit surface')
-    mu = number('a coefficient of friction of 0 or more, or inf', 0.0, math.inf)
-    option(
-        '--mu-c',
-        type=mu,
-        default=argparse.SUPPRESS,
-        metavar='X|inf',
-        help='friction at the finger (default: as the file of the object says, otherwise inf)',
-    )
+    add_object(option)
     option(
         '--law',
         default='push',
@@ -67,25 +42,14 @@ def add(commands: Commands) -> None:
     gain = number('a finite gain of 0 or more', 0.0, sys.float_info.max)
     _optional(option, '--kp', type=gain, metavar='X', help='proportional gain [rad/rad]')
     _optional(option, '--kd', type=gain, metavar='X', help='derivative gain [rad/rad]')
-    edge = number('degrees between -90 and 90', -90.0, 90.0, closed=False)
-    start = math.degrees(THETA_INITIAL)
-    option('--theta0-deg', type=edge, default=start, metavar='DEG', help='edge angle at the start')
-    length = number('millimetres', -sys.float_info.max, sys.float_info.max)
-    option(
-        '--d0-mm',
-        type=length,
-        default=argparse.SUPPRESS,
-        metavar='MM',
-        help=f'contact along the edge at the start (default: {1e3 * D_INITIAL:g} for the block, '
-        'otherwise the contact nearest to d = 0)',
-    )
+    add_start(option)
     ahead = number('degrees between 0 and 180', 0.0, 180.0, closed=False)
     _optional(option, '--phi0-deg', type=ahead, metavar='DEG', help='first push angle')
     angle = number('degrees between -180 and 180', -180.0, 180.0)
     _optional(option, '--theta-desired-deg', type=angle, metavar='DEG', help='desired angle')
     option(
         '--x-goal-mm',
-        type=length,
+        type=LENGTH,
         default=argparse.SUPPRESS,
         metavar='MM',
         help='where the centre of mass shall be across the belt, from where the finger starts, for '
@@ -93,7 +57,7 @@ def add(commands: Commands) -> None:
     )
     option(
         '--theta-goal-deg',
-        type=edge,
+        type=FACING,
         default=argparse.SUPPRESS,
         metavar='DEG',
         help='angle that the edge shall have, for the laws place and settle',
@@ -137,7 +101,7 @@ def _simulate(options: argparse.Namespace) -> int:
     json_file, plot = (getattr(options, name, None) for name in ('json', 'plot'))
     try:
         with Console(stderr=True).status('simulating (the first time, compiling)'):
-            config = _config(options)
+            config = config_of(options)
             done = LAWS[options.law].run(options, config)
         run = done.run
         if json_file is not None:
@@ -164,30 +128,6 @@ def _draw(done: Simulated, file: Path) -> None:
 
     run = done.run
     plot_history({'': (run.theta, run.phi, done.theta_wanted, TOLERANCE, done.settled)}, [file])
-
-
-def _config(options: argparse.Namespace) -> 'RigConfig':
-    """Return the rig that the options ask for."""
-    from tactile_push.mechanics import Slider
-    from tactile_push.simulation import RigConfig
-
-    thing = _object(options.object)
-    support, mu_c = thing.support, math.inf if thing.mu_c is None else thing.mu_c
-    if hasattr(options, 'support') or support is None:
-        support = _support(getattr(options, 'support', 'uniform'), thing)
-    slider = Slider.on(
-        thing.outline,
-        support,
-        exact=options.surface == 'exact',
-        centre_of_mass=thing.centre_of_mass,
-    )
-    d = D_INITIAL if options.object == BLOCK else None
-    if hasattr(options, 'd0_mm'):
-        d = options.d0_mm / 1000.0
-    theta = math.radians(options.theta0_deg)
-    return RigConfig(
-        slider, getattr(options, 'mu_c', mu_c), theta, d, tip_turns=False
-    )  # as in the equations
 
 
 def _as_json(done: Simulated, config: 'RigConfig') -> dict[str, Any]:
@@ -222,42 +162,3 @@ def _print(done: Simulated, config: 'RigConfig') -> None:
         *done.rows,
         sep='\n',
     )
-
-
-def _object(thing: str) -> 'ObjectFile':
-    """Return what is known of an object."""
-    from tactile_push.cli.output import naming
-    from tactile_push.mechanics import Outline
-    from tactile_push.simulation import ObjectFile, read_object
-
-    if thing == BLOCK:
-        return ObjectFile(Outline.rectangle(BLOCK_EDGE, BLOCK_DEPTH))
-    if thing == DISK:
-        return ObjectFile(Outline.circle(DISK_RADIUS))
-    with naming(thing, '--object'):
-        return read_object(Path(thing))
-
-
-def _support(name: str, thing: 'ObjectFile') -> 'Support':
-    """Return what the object rests on."""
-    from tactile_push.cli.output import naming
-    from tactile_push.mechanics import Outline, Support
-    from tactile_push.simulation import read_support
-
-    outline, centre_of_mass = thing.outline, thing.centre_of_mass
-    if name in ('corners', 'uniform', 'rim'):
-        support = getattr(Support, name)(outline)
-        return support if centre_of_mass is None else support.carrying(centre_of_mass)
-    if name.startswith('circle:'):
-        try:
-            radius = float(name.removeprefix('circle:'))
-        except ValueError:
-            raise ValueError(f'support: expected circle:RADIUS_M, got {name}') from None
-        centre = centre_of_mass or Support.uniform(outline).centre
-        support = Support.circle(radius, *centre)
-        rim = Outline.circle(radius).points(radius / 16.0) + centre
-        if not outline.contains(rim, 1e-9 * outline.length).all():
-            raise ValueError(f'support: expected a circle under the object, got {name}')
-        return support
-    with naming(name, '--support'):
-        return read_support(Path(name), centre_of_mass)

@@ -7,7 +7,7 @@ from collections.abc import Generator
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
-from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation
+from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation, centre_of_mass
 from tactile_push.control.placing.planner import Plan, new_plan
 from tactile_push.control.placing.stages import (
     AT_THE_LIMITS,
@@ -27,6 +27,7 @@ STEEPNESS_SPARED, BELT_SPARED, SPARED, THETA_SPARED = 0.15, 0.2, 3e-3, math.radi
 FAR = 10.0  # no end of an edge, a workspace or a belt [m]
 # How far goals around one are tried, where a millimetre counts as a degree [mm]; and in how many
 # directions.
+STEPS = 32  # in which goals between one and the start are tried
 RADII, DIRECTIONS, HALVINGS = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0), 12, 3
 
 
@@ -231,4 +232,26 @@ def nearing(task: Task, goal: Goal) -> Generator[None, None, Goal | None]:
                     nearer = middle
             return at(radius, direction)
         nearer = radius
+    return None
+
+
+def on_the_way(task: Task, goal: Goal) -> Goal | None:
+    """Find the last goal that can be reached between where the object is and a goal.
+
+    Parameters
+    ----------
+    task, goal : Task, Goal
+        As for `nearest_goal`.
+
+    Returns
+    -------
+    Goal or None
+        One of 32 on the straight line in x and theta; None if none of them can be reached.
+    """
+    x, theta = centre_of_mass(task.now, task.pushed), task.now.theta
+    for k in range(STEPS - 1, -1, -1):
+        share = k / STEPS
+        tried = Goal(x + share * (goal.x - x), theta + share * (goal.theta - theta))
+        if task.arrives(tried):
+            return tried
     return None

@@ -12,6 +12,7 @@ from tactile_push.control.placing.reachability import (
     judging,
     nearest_goal,
     nearing,
+    on_the_way,
     reach,
 )
 from tactile_push.control.placing.stages import (
@@ -87,3 +88,14 @@ def test_a_look_pauses_after_each_plan(looking, monkeypatch):
     for pauses, _ in enumerate(looking(task(), Goal(0.0, 0.0)), 1):
         assert len(plans) == pauses
     assert len(plans) == pauses > 4
+
+
+def test_between_the_start_and_a_goal_there_is_one_that_can_be_reached():
+    x, goal = centre_of_mass(NOW, task().pushed), Goal(0.3, 0.5)
+    found = on_the_way(task(belt=0.05), goal)
+    share = (found.x - x) / (goal.x - x)
+    assert 0.0 <= share < 1.0
+    assert found.theta == pytest.approx(NOW.theta + share * (goal.theta - NOW.theta))
+    assert task(belt=0.05).arrives(found)
+    # No farther than the finger gets on the belt, and what the edge's turn moves the centre aside.
+    assert found.x - x < 1.54 * 0.05 + 0.005
