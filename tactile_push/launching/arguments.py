@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 import yaml
 
 from tactile_push import paper
-from tactile_push.interface import PLANTS, SENSORS, SENTENCE, SIM_PLANT
+from tactile_push.interface import LAWS, PLANTS, SENSORS, SENTENCE, SIM_PLANT
 from tactile_push.parameters import (
     FingerServoParameters,
     PushControllerParameters,
@@ -24,6 +24,10 @@ OBJECTS = (paper.BLOCK, paper.DISK)
 LAW, PLANT = PushControllerParameters(), SimPlantParameters()
 SERVO = FingerServoParameters()
 LIKENESS = 0.8  # of a name and the one that was meant; a file that includes ours has its own names
+OBEYS = (
+    'law of push_controller: push turns the object to theta_desired, place brings it to the goals '
+    'on the topic place/goal and lets it go there'
+)
 SHOWS = 'show the run on a page for browsers, whose address live_page prints'
 
 
@@ -71,6 +75,7 @@ class DemoArguments(LaunchArguments):
     # fmt: off
     object: str = parameter(paper.BLOCK, '', "the paper's object to push", choices=OBJECTS)
     plant: str = parameter(SIM_PLANT, '', 'which node simulates', choices=PLANTS)
+    law: str = parameter(LAW.law, '', OBEYS, choices=LAWS)
     kp: float = parameter(LAW.kp, 'rad/rad',
         'proportional gain of the control law', 0.0, 100.0)
     kd: float = parameter(LAW.kd, 'rad/rad',
@@ -111,6 +116,7 @@ class FingerArguments(LaunchArguments):
         'finger/cmd_vel itself')
     object: str = parameter(paper.BLOCK, '',
         f"what is pushed: {' or '.join(OBJECTS)} of the paper, or a parameter file of one's own")
+    law: str = parameter(LAW.law, '', OBEYS, choices=LAWS)
     namespace: str = parameter('', '', 'namespace of all nodes; a second finger needs one')
     sim: bool = parameter(False, '',
         'let sim_plant take the place of the machine, on simulated time and this computer alone')

@@ -97,7 +97,8 @@ def demo_plan(texts: Mapping[str, str]) -> Plan:
     """
     p = DemoArguments.of(DemoArguments.read(texts))
     values = {
-        **{'kp': p.kp, 'kd': p.kd, 'device': p.device, 'real_time_factor': p.real_time_factor},
+        **{'law': p.law, 'kp': p.kp, 'kd': p.kd},
+        **{'device': p.device, 'real_time_factor': p.real_time_factor},
         **{'publish_clock': True, 'use_sim_time': True},
     }
     machine = FingerArguments().machine
@@ -131,7 +132,8 @@ def finger_plan(texts: Mapping[str, str]) -> Plan:
     given = FingerArguments.read(texts)
     file = Path(given.get('config') or config_file('hardware.yaml'))
     hardware = read_file(file)
-    p = FingerArguments.of({**launch_values(hardware, file), **given})
+    told = {**launch_values(hardware, file), **given}
+    p = FingerArguments.of(told)
     pushed = object_file(p)
     # Of a hard tip the hemisphere has the disk's radius; a file may know better.
     tip: Sections = {f'/**/{WRENCH_SENSOR}': {'tip_radius': p.finger_radius}}
@@ -140,6 +142,8 @@ def finger_plan(texts: Mapping[str, str]) -> Plan:
     if p.calibration:
         files.append(_calibration(p, kind.node))
     own = {kind.node: kind.parameters, ACTIVE_SENSING: kind.sensing} if p.sim else {}
+    if 'law' in told:  # or else a file may say it of the controller
+        own[PUSH_CONTROLLER] = {'law': p.law}
     names = [kind.node, *_LOOP]
     if moved := _moved_by_servo(p, values):
         names.append(FINGER_SERVO)

@@ -92,6 +92,20 @@ def test_wrist_of_the_machine_is_one_of_the_simulated_finger_too():
     assert '<joint name="wrist_joint" type="continuous"' in described
 
 
+def test_law_is_that_of_the_argument_or_else_of_a_file(own):
+    assert values(finger_plan({}), 'push_controller')['law'] == 'push'
+    assert values(finger_plan({'law': 'place'}), 'push_controller')['law'] == 'place'
+    file = str(own(push_controller={'law': 'place'}))
+    assert values(finger_plan({'config': file}), 'push_controller')['law'] == 'place'
+    plan = finger_plan({'config': file, 'law': 'push'})
+    assert values(plan, 'push_controller')['law'] == 'push'
+    assert 'law' not in values(plan, 'active_sensing')
+    demo = demo_plan({'law': 'place', 'watch': 'false'})
+    assert values(demo, 'push_controller')['law'] == 'place'
+    with pytest.raises(ValueError, match="argument law: expected one of push, place, got 'shove'"):
+        finger_plan({'law': 'shove'})
+
+
 def test_machine_that_takes_the_command_itself_needs_no_servo():
     plan = finger_plan({'servo': 'false', 'sim': 'true'})
     assert names(plan) == ['robot_state_publisher', 'sim_plant', 'sensor_driver', *LOOP]
