@@ -132,6 +132,7 @@ class PlaceLaw(PushLaw):
         self._planned_at = math.nan  # on the belt's way [m]
         self._free_at = math.inf  # where the object is let go, on the belt's way [m]
         self._aim = math.nan
+        self._goes_around = False  # whether the end was missed, so that a plan is to go around
         self._kept_since = math.inf  # belt used when the end was near for the first time [m]
         self._planner.forget()
 
@@ -248,22 +249,20 @@ class PlaceLaw(PushLaw):
         most, last = max(left, 0.0), self._piece + self._delay
         way = 0.0 if math.isnan(self._planned_at) else self._past.way - self._planned_at
         self._planned_at = self._past.way
-        pushed, spread = belief.pushed, belief.spread
-        sure = spread.d <= SURE and spread.theta <= SURE_ANGLE
-        waits = not sure and self.used < self._kept_since + KEPT_SHARE * self.belt
         plan = self._planner.plan(
-            *(now, pushed, self._upstream(now, belief), most),
+            *(now, belief.pushed, self._upstream(now, belief), most),
             others=_others(belief),
-            least=min(KEPT_BACK + self._delay, most) if waits else 0.0,
+            least=min(self._least(belief.spread), most),
             way=way,
             bounds=bounds,
         )
         if plan is not None and plan.length < KEPT_BACK + last:
             self._kept_since = min(self._kept_since, self.used)
-        if plan is not None and plan.length < last and not plan.near:
-            self._planner.forget()
-            least = min(DETOUR, most)
-            plan = self._planner.plan(now, pushed, self.goal, most, least=least, bounds=bounds)
+        if plan is not None and plan.arrives:
+            self._goes_around = False
+        elif plan is not None and plan.length < last and not plan.near:
+            self._planner.drop()
+            self._goes_around = True
         self.plan = plan
         ends = plan is not None and plan.near and plan.length < last
         if plan is not None and ends:
@@ -273,9 +272,19 @@ class PlaceLaw(PushLaw):
             self.stage = MISSED
         if plan is None or (plan.length < last and not ends):
             # Translating keeps what can be reached for the longest.
-            ahead = -math.tan(now.theta + math.atan2(now.d, pushed.l))
+            ahead = -math.tan(now.theta + math.atan2(now.d, belief.pushed.l))
             return min(max(ahead, -bounds.steepest), bounds.steepest)
         return plan.command(self._piece)
+
+    def _least(self, spread: Spread) -> float:
+        """Return the belt that a plan takes at the least [m]."""
+        if self._goes_around:
+            return DETOUR
+        sure = spread.d <= SURE and spread.theta <= SURE_ANGLE
+        waited = self.used - self._kept_since > KEPT_SHARE * self.belt
+        if sure or waited or (self.plan is not None and not self.plan.arrives):
+            return 0.0
+        return KEPT_BACK + self._delay
 
     def _upstream(self, now: Situation, belief: Belief) -> Goal:
         """Return the goal, moved against the object's drift there by what the turn may be wrong.

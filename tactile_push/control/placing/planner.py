@@ -17,6 +17,7 @@ from tactile_push.mechanics.compiled import Array
 
 # Pushes of the search that are refined, more of them if none arrives, and rounds of each.
 TRIES, MORE_TRIES, ROUNDS = 3, 8, 12
+LOOK_TRIES = 2  # of a search between others, for which there is little time
 LOOK_AROUND = 10  # plans after which a new one is compared with what is left of the last one
 WARM_ROUNDS = 6  # of what is left of the last plan
 # What plans are compared by: misses [m, rad] and bounds as squares of these, and the belt [m] that
@@ -120,8 +121,13 @@ class Planner:
 
     def forget(self) -> None:
         """Begin from nothing with the next plan."""
+        self._looks = 0
+        self.drop()
+
+    def drop(self) -> None:
+        """Drop the last plan, and look on for others."""
         self._last: Plan | None = None
-        self._plans = self._looks = 0
+        self._plans = 0
         self._taken = LIKELY  # what the last plan takes for granted
 
     def plan(
@@ -184,7 +190,7 @@ class Planner:
                 _spared(other) if look.spares else other,
                 min(max(least, look.least), most),
                 most,
-                TRIES,
+                LOOK_TRIES,
                 roundabout=look.roundabout,
             )
             if new is not None and self._is_better(new, look.taken, best):

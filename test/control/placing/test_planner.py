@@ -100,3 +100,13 @@ def test_once_a_plan_arrives_with_what_is_likely_it_takes_nothing_for_granted():
     expected = planned(Planner(BOUNDS), pushed(mu_c=0.5), times=20)
     assert likely.arrives
     assert likely.length == pytest.approx(expected.length, rel=0.2)
+
+
+def test_what_was_looked_at_is_remembered_while_plans_are_dropped():
+    planner = Planner(BOUNDS)
+    others = pushed(mu_c=0.3), pushed(mu_c=1.0)
+    found = []
+    for _ in range(8):
+        found.append(planner.plan(ASIDE, pushed(), BACK, 0.3, others=others).arrives)
+        planner.drop()
+    assert any(found)
