@@ -159,8 +159,11 @@ class PlaceTopics:
         if reach.verdict != self._verdict and reach.verdict == OUT_OF_REACH:
             logger.warning(f'{PLACE_GOAL}: out of reach by what is known: {reach.reason}')
         if placing.stage != self._stage and placing.stage in ENDS:
-            say = logger.info if placing.stage == RELEASED else logger.warning
-            say(f'{PLACE_GOAL}: {placing.stage}')
+            # In two lines of code: rclpy raises an error where one logs at two levels.
+            if placing.stage == RELEASED:
+                logger.info(f'{PLACE_GOAL}: {placing.stage}')
+            else:
+                logger.warning(f'{PLACE_GOAL}: {placing.stage}')
         self._verdict, self._stage = reach.verdict, placing.stage
 
     def _forget_release(self) -> None:

@@ -258,3 +258,20 @@ def test_simulated_time_waits_for_an_estimate_but_not_for_ever(bench, serving):
     told.sensed = lambda *message: None
     place._on_estimate(JointState())
     assert place.waits()
+
+
+def test_each_end_of_a_goal_is_told_once_at_its_level(bench, serving, capfd):
+    told = Told(math.nan)
+    place = serving(told)
+    stamp = bench.node.get_clock().now().to_msg()
+    capfd.readouterr()
+    # Through rclpy's own logger, which takes no two levels of one line of code.
+    for stage in ('released', 'released', 'learning', 'missed', 'cancelled'):
+        told.stage = stage
+        place.after_tick(stamp)
+    lines = capfd.readouterr().err.splitlines()
+    assert [(line.split(']')[0], line.split(': ', 1)[1]) for line in lines] == [
+        ('[INFO', 'place/goal: released'),
+        ('[WARN', 'place/goal: missed'),
+        ('[WARN', 'place/goal: cancelled'),
+    ]
