@@ -26,7 +26,8 @@ SERVO = FingerServoParameters()
 LIKENESS = 0.8  # of a name and the one that was meant; a file that includes ours has its own names
 OBEYS = (
     'law of push_controller: push turns the object to theta_desired, place brings it to the goals '
-    'on the topic place/goal and lets it go there'
+    'on the topic place/goal and lets it go there, steer carries it straight ahead at the x of the '
+    'goal'
 )
 SHOWS = 'show the run on a page for browsers, whose address live_page prints'
 

@@ -34,7 +34,9 @@ from tactile_push.interface import (
     JOINT_STATES,
     PLACE,
     PLACE_STATE,
+    PUSH,
     RESUME,
+    STEER,
 )
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.managed import ManagedNode
@@ -54,6 +56,7 @@ from tactile_push.parameters.push_controller import (
 )
 from tactile_push.pipeline import Control, edge_angle
 from tactile_push.pipeline.stamps import stamp_of
+from tactile_push.pipeline.steering import SteerGoals
 
 STANDSTILL = 1.0  # without a tick for so long after a period, time stands still [s]; picked
 NO_LIMIT = 'use_joint_states: false does without, and keeps no limit of the workspace'
@@ -64,7 +67,7 @@ class PushController(ManagedNode):
     """Managed node: `contact` in, `finger/cmd_vel` and `push_controller/state` out.
 
     It also subscribes to `joint_states`, to keep the finger in its workspace, and to
-    `finger/cmd_vel`, to notice that somebody else commands the finger. The law that places adds the
+    `finger/cmd_vel`, to notice that somebody else commands the finger. Laws with goals add the
     topics of `PlaceTopics`.
     """
 
@@ -110,9 +113,18 @@ class PushController(ManagedNode):
         self.make_subscription(PoseStamped, CONTACT, self._on_contact, SENSOR_DATA)
         for qos in EVERYBODY:
             self.make_subscription(TwistStamped, COMMAND, self._on_command, qos)
-        if self._settings.law == PLACE:
-            self._outputs |= self._place.make()
+        self._hears_goals = False
+        self._make_topics_of_goals()
         return TransitionCallbackReturn.SUCCESS
+
+    def _make_topics_of_goals(self) -> None:
+        """Make the topics that the law takes beside those of all laws, unless they are there."""
+        law = self._settings.law
+        if law != PUSH and not self._hears_goals:
+            self._place.hear_goals()
+            self._hears_goals = True
+        if law == PLACE and PLACE_STATE not in self._outputs:
+            self._outputs |= self._place.make()
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Start the law."""
@@ -126,16 +138,16 @@ class PushController(ManagedNode):
     def _choose_law(self) -> None:
         """Begin anew with the law that is asked for; what it needs is made and compiled."""
         p, seconds = self._settings, self._time.seconds
+        self._make_topics_of_goals()
         if p.law == PLACE:
             from tactile_push.nodes.ros.compiling import compiling  # which loads the compiler
 
-            if PLACE_STATE not in self._outputs:
-                self._outputs |= self._place.make()
             with compiling(self, self._diagnostics):
                 choose_law(self._steps, p, seconds)
         else:
             choose_law(self._steps, p, seconds)
-        self._place.serve(self._steps.placing)
+        steering = SteerGoals(self._control) if p.law == STEER else None
+        self._place.serve(self._steps.placing, steering)
 
     def destroy_node(self) -> None:
         """Stop the finger and end."""

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 from tactile_push import paper
-from tactile_push.control import Limits, PushControl, PushLaw, Steadying
-from tactile_push.interface import LAWS, PLACE, PUSH
+from tactile_push.control import Limits, PushControl, PushLaw, Steadying, Steering
+from tactile_push.interface import LAWS, PLACE, PUSH, STEER
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
 from tactile_push.pipeline import Control, Seconds
@@ -24,7 +24,8 @@ class PushControllerParameters(NodeParameters):
     # fmt: off
     law: str = parameter(PUSH, '',
         'what the finger does: push turns the object by the law (18), place brings it to the goals '
-        'on place/goal and lets it go there; counts from the next activation on', choices=LAWS)
+        'on place/goal and lets it go there, steer carries it straight ahead at the x of the goal; '
+        'counts from the next activation on', choices=LAWS)
     kp: float = parameter(paper.KP, 'rad/rad', 'proportional gain of the law (18)', 0.0, 100.0)
     kd: float = parameter(paper.KD, 'rad/rad', 'derivative gain of the law (18)', 0.0, 1000.0)
     theta_desired: float = parameter(paper.THETA_DESIRED, 'rad',
@@ -92,8 +93,9 @@ def make_control(p: PushControllerParameters) -> PushControl:
     if not len(p.joint_names) == len(set(p.joint_names)) in (2, 3):
         raise ValueError(f'joint_names: expected two or three different names, got {p.joint_names}')
     limits = Limits(workspace_min=p.workspace_min, workspace_max=p.workspace_max)
-    steadying = Steadying(p.steadying_max, p.edge_distance, p.finger_radius)
-    control = PushControl(make_law(p), p.belt_speed, 1.0 / p.control_rate, limits, steadying)
+    law = make_law(p)
+    steadying = make_steadying(law, p)
+    control = PushControl(law, p.belt_speed, 1.0 / p.control_rate, limits, steadying)
     take_values(control, p)
     return control
 
@@ -101,6 +103,13 @@ def make_control(p: PushControllerParameters) -> PushControl:
 def make_law(p: PushControllerParameters) -> PushLaw:
     """Make the law (18)."""
     return PushLaw(p.kp, p.kd, p.theta_desired, p.phi_min, p.phi_max)
+
+
+def make_steadying(law: PushLaw, p: PushControllerParameters) -> Steadying | Steering:
+    """Make what trims theta_d for a law (18); steering has no goal yet."""
+    if p.law == STEER:
+        return Steering(law, p.belt_speed, math.nan, p.edge_distance, p.finger_radius)
+    return Steadying(p.steadying_max, p.edge_distance, p.finger_radius)
 
 
 def choose_law(steps: Control, p: PushControllerParameters, seconds: Seconds) -> None:
@@ -113,6 +122,7 @@ def choose_law(steps: Control, p: PushControllerParameters, seconds: Seconds) ->
     """
     steps.placing = None
     steps.push.law = make_law(p)
+    steps.push.steadying = make_steadying(steps.push.law, p)
     if p.law == PLACE:
         # Which load the compiler.
         from tactile_push.control.placing.compiling import compile_placing
@@ -146,10 +156,10 @@ def check_fit(p: PushControllerParameters) -> None:
     ValueError
         If values do not fit together.
     """
-    if p.law == PLACE and not p.use_joint_states:
-        raise ValueError('use_joint_states: expected true with law place, got false')
-    if p.law == PLACE and p.steadying_max > 0.0:
-        raise ValueError(f'steadying_max: expected 0 with law place, got {p.steadying_max:g}')
+    if p.law != PUSH and not p.use_joint_states:
+        raise ValueError(f'use_joint_states: expected true with law {p.law}, got false')
+    if p.law != PUSH and p.steadying_max > 0.0:
+        raise ValueError(f'steadying_max: expected 0 with law {p.law}, got {p.steadying_max:g}')
     most = STEEPEST - p.steadying_max
     if not abs(p.theta_desired) <= most:
         raise ValueError(

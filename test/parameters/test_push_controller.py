@@ -6,7 +6,8 @@ import math
 
 import pytest
 
-from tactile_push.interface import PLACE, PUSH
+from tactile_push.control import Steadying, Steering
+from tactile_push.interface import PLACE, PUSH, STEER
 from tactile_push.parameters import PushControllerParameters
 from tactile_push.parameters.push_controller import (
     check_fit,
@@ -135,3 +136,30 @@ def test_what_cannot_place_is_refused(given, refusal):
     make_control(PushControllerParameters(**given))
     with pytest.raises(ValueError, match=refusal):
         make_control(PushControllerParameters(law=PLACE, **given))
+
+
+def test_the_law_that_steers_is_law_18_with_steering_until_another_is_chosen():
+    values = PushControllerParameters(law=STEER, kp=0.1, edge_distance=0.03, finger_radius=0.01)
+    push = make_control(values)
+    steps = Control(push, make_finger(values), values.joint_names, lambda sec, nanosec: sec)
+    choose_law(steps, values, lambda sec, nanosec: sec)
+    assert steps.placing is None
+    assert isinstance(push.steadying, Steering)
+    assert (push.steadying.l, push.steadying.r) == (0.03, 0.01)
+    assert math.isnan(push.steadying.goal)
+    take_values(push, values)
+    assert push.law.kp == 0.1
+    choose_law(steps, PushControllerParameters(), lambda sec, nanosec: sec)
+    assert isinstance(push.steadying, Steadying)
+
+
+@pytest.mark.parametrize(
+    ('given', 'refusal'),
+    [
+        ({'use_joint_states': False}, 'use_joint_states: expected true with law steer'),
+        ({'steadying_max': 0.1}, 'steadying_max: expected 0 with law steer, got 0.1'),
+    ],
+)
+def test_what_does_not_fit_the_law_that_steers_is_refused(given, refusal):
+    with pytest.raises(ValueError, match=refusal):
+        check_fit(PushControllerParameters(law=STEER, **given))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""The topics of the law that places: goals and estimates in, the word to let go at its moment."""
+"""The topics of laws with goals: goals and estimates in, the word to let go at its moment."""
 
 import math
 import time
@@ -28,6 +28,7 @@ from tactile_push.pipeline.stamps import stamp_of
 
 if TYPE_CHECKING:
     from tactile_push.pipeline.placing import Placing
+    from tactile_push.pipeline.steering import SteerGoals
 
 # For so long of wall time simulated time waits for an estimate [s]: shorter than the plant waits
 # for a command, and longer than active_sensing takes on a busy machine; picked.
@@ -37,6 +38,8 @@ INACTIVE = 'inactive'
 
 class PlaceTopics:
     """Tells `Placing` what goals and estimates arrive, and the finger when to let go.
+
+    The law that steers has goals alone, which `SteerGoals` takes.
 
     Parameters
     ----------
@@ -50,6 +53,7 @@ class PlaceTopics:
         self._node = node
         self._arrived = arrived
         self._placing: Placing | None = None
+        self._taker: Placing | SteerGoals | None = None  # of goals
         self._release: Publisher | None = None
         self._timer: Timer | None = None  # until the moment to let go
         self._waiting: Timer | None = None  # for an estimate, no longer than its patience
@@ -62,16 +66,20 @@ class PlaceTopics:
         """Make the topics, until the node is cleaned up, and return what is published by name."""
         node = self._node
         self._release = node.make_publisher(Bool, PLACE_RELEASE)
-        node.make_subscription(PoseStamped, PLACE_GOAL, self._on_goal, PUBLISHED)
         node.make_subscription(JointState, SENSING_STATE, self._on_estimate, PUBLISHED)
         return {
             PLACE_STATE: node.make_publisher(JointState, PLACE_STATE),
             PLACE_RELEASE: self._release,
         }
 
-    def serve(self, placing: 'Placing | None') -> None:
+    def hear_goals(self) -> None:
+        """Take goals, until the node is cleaned up."""
+        self._node.make_subscription(PoseStamped, PLACE_GOAL, self._on_goal, PUBLISHED)
+
+    def serve(self, placing: 'Placing | None', steering: 'SteerGoals | None' = None) -> None:
         """Let somebody else take goals; None for nobody, as while the node is inactive."""
         self._placing = placing
+        self._taker = placing or steering
         self._answers = True
         self._stage = self._verdict = ''
         self._end_timers()
@@ -120,8 +128,8 @@ class PlaceTopics:
         rotation = (turn.x, turn.y, turn.z, turn.w)
         frame, x = message.header.frame_id, message.pose.position.x
         refusal = INACTIVE
-        if self._placing is not None:
-            refusal = self._placing.goal(frame, x, rotation)
+        if self._taker is not None:
+            refusal = self._taker.goal(frame, x, rotation)
         said = f'x {x:g} m, theta {math.degrees(yaw_of_quaternion(*rotation)):.1f} degrees'
         logger = self._node.get_logger()
         if refusal:
@@ -139,8 +147,8 @@ class PlaceTopics:
             self._arrived()
 
     def _on_cancel(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        stage = INACTIVE if self._placing is None else self._placing.stage
-        response.success = self._placing is not None and self._placing.cancel()
+        stage = INACTIVE if self._taker is None else self._taker.stage
+        response.success = self._taker is not None and self._taker.cancel()
         response.message = f'was {stage}' if response.success else stage
         if response.success:
             self._forget_release()

@@ -26,6 +26,7 @@ from tactile_push.interface import (
     PLACE_RELEASE,
     PLACE_STATE,
     PUSH,
+    STEER,
     TOPICS,
 )
 from tactile_push.nodes.push_controller import PushController
@@ -158,6 +159,29 @@ def test_the_law_counts_from_the_next_activation_on(bench):
     node.trigger_activate()
     assert node._steps.placing is None
     assert node._state_machine.current_state[0] == State.PRIMARY_STATE_ACTIVE
+
+
+def test_the_law_that_steers_takes_goals_and_gives_them_up(bench):
+    node = bench.start(PushController, law=STEER, **PATIENT)
+    bench.until(lambda: PLACE_GOAL in bench.topics()[1])
+    assert PLACE_STATE not in node._outputs
+    warned = []
+    node.get_logger().warning = warned.append
+    goals = bench.publisher(PoseStamped, PLACE_GOAL)
+    goals.publish(goal(x=0.5))
+    bench.until(lambda: warned)
+    assert warned == ['place/goal: refused (x 0.5 m, theta 0.0 degrees): outside the workspace']
+    goals.publish(goal(x=0.02))
+    bench.until(lambda: node._control.steadying.goal == 0.02)
+    answer = node._place._on_cancel(Trigger.Request(), Trigger.Response())
+    assert (answer.success, answer.message) == (True, 'was steering')
+    assert math.isnan(node._control.steadying.goal)
+    node.set_parameters([RosParameter('law', value=PLACE)])
+    node.trigger_deactivate()
+    node.trigger_activate()
+    bench.until(lambda: PLACE_STATE in bench.topics()[0])
+    goals.publish(goal(x=0.01))
+    bench.until(lambda: node._steps.placing.goals == 1)  # heard once
 
 
 class Told:
