@@ -14,12 +14,17 @@ from tactile_push.mechanics import friction_cone
 from tactile_push.mechanics.resistance import Pressure
 
 NARROWEST = 1e-5  # standard deviation of d [m]; with 0 nothing could be learned
+LARGEST, LEAST = 1e3, 1e-12  # of what an object can be like, in units of SI; picked
 FRICTION = ('mu_c', 'mu_c_lower', 'mu_c_upper')  # needed, and may be infinite
 NEEDED = (  # finite
     *('theta', 'd', 'theta_deviation', 'd_deviation', 'log_c_deviation', 'l', 'radius'),
     *('c_squared', 'growth', 'shape', 'tilt', 'moment_along', 'moment_mixed', 'moment_across'),
     *('edge_start', 'edge_end', 'noise'),
 )
+LOWEST = {
+    **dict.fromkeys(('l', 'radius', 'c_squared', 'noise'), LEAST),
+    **dict.fromkeys(('theta_deviation', 'd_deviation', 'log_c_deviation'), 0.0),
+}
 
 
 def belief_of(
@@ -40,11 +45,13 @@ def belief_of(
     Returns
     -------
     Belief or None
-        What is believed; None if anything that it takes is not known.
+        What is believed; None if anything that it takes is not known, or like no object at all.
     """
     numbers = [*(values.get(name, math.nan) for name in NEEDED), x, turning]
     known = all(values.get(name, math.nan) >= 0.0 for name in FRICTION)
-    if not (known and all(map(math.isfinite, numbers))):
+    if not (known and all(abs(number) <= LARGEST for number in numbers)):  # which NaN is not
+        return None
+    if any(values[name] < lowest for name, lowest in LOWEST.items()):
         return None
     cos_alpha, sin_alpha = friction_cone(values['mu_c'])
     moments = np.array([values[f'moment_{way}'] for way in ('along', 'mixed', 'across')])

@@ -65,3 +65,11 @@ def test_friction_may_be_infinite(block):
 def test_of_a_disk_without_edges_nothing_is_believed():
     _, values = pushed(DiskEstimator(0.03, NOISE))
     assert belief_of(values, 0.03, 0.0, PIECE) is None
+
+
+@pytest.mark.parametrize(
+    ('name', 'value'),
+    [('l', 0.0), ('c_squared', -1.0), ('noise', 0.0), ('d_deviation', -1e-9), ('theta', 1e308)],
+)
+def test_of_what_is_like_no_object_nothing_is_believed(block, name, value):
+    assert belief_of({**block[1], name: value}, 0.03, 0.0, PIECE) is None

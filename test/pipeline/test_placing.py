@@ -41,6 +41,7 @@ from tactile_push.control.placing.stages import (
 )
 from tactile_push.estimation.contradictions import BLIND, CONTRADICTIONS, JUMPED
 from tactile_push.interface import PLACE_RELEASE, PLACE_STATE, SENSING_STATE, TOPICS
+from tactile_push.pipeline.belief import FRICTION, NEEDED
 
 GOAL, SECOND = (-0.02, -0.1), (-0.012, 0.05)
 STRAIGHT = (0.0, 0.0, 0.0, 1.0)
@@ -320,6 +321,19 @@ def test_a_tip_that_is_not_known_for_a_moment_is_no_contradiction():
     contradicted(line, BLIND)
     line.period()
     assert line.placing.stage in (LEARNING, PLACING)
+
+
+def test_whatever_the_estimate_says_the_command_is_finite_and_bounded():
+    line = serving()
+    for name in (*NEEDED, *FRICTION, 'age', 'readings', 'contradiction', 'edge'):
+        for value in (1.8e308, -1.8e308, -1.0, 0.0, 5e-324, 900.0, math.inf, math.nan):
+            if line.placing.stage not in (LEARNING, PLACING):
+                line.ask(*GOAL)
+            ((_, message), *_) = line._under_way[-1]
+            message['position'][message['name'].index(name)] = value
+            tick = line.period()
+            assert abs(tick.v_x) <= 0.02, (name, value)  # `max_speed`
+    assert line.placing.released == 0
 
 
 def test_without_estimates_the_law_does_for_half_a_second_and_then_stops():

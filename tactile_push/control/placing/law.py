@@ -242,7 +242,7 @@ class PlaceLaw(PushLaw):
             u = telling_command(now, belief.pushed, slippery, bounds, belief.spread, self._aim)
         else:
             u = self._place(now, belief, bounds, self.belt - self.used)
-        self.phi = motion_angle(u, 1.0)
+        self.phi = motion_angle(u, 1.0) if math.isfinite(u) else AHEAD
 
     def _place(self, now: Situation, belief: Belief, bounds: Bounds, left: float) -> float:
         """Plan anew and return the command of the next period."""
