@@ -144,7 +144,9 @@ class Placing:
         return True
 
     def sensed(self, stamp: Stamp, names: Sequence[str], positions: Sequence[float]) -> None:
-        """Take a message of `active_sensing/state`; one that is not the newest is ignored.
+        """Take a message of `active_sensing/state`.
+
+        One that is not the newest, or not about a control period of this controller, is ignored.
 
         Parameters
         ----------
@@ -152,7 +154,7 @@ class Placing:
             When its control period began [s, ns], names and their values.
         """
         at = self._seconds(*stamp)
-        if at > self._heard[0]:
+        if at > self._heard[0] and any(at == began for began, _, _ in self._periods):
             self._heard = at, by_name(names, positions)
 
     @property

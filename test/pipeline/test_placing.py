@@ -270,7 +270,10 @@ def test_a_goal_is_refused_while_the_finger_waits_for_somebody():
 
 def test_a_round_object_has_no_edge_to_place():
     line = Line()
-    line.placing.sensed(line.stamp, ['edge', 'readings'], [math.nan, 0.0])
+    line.senses = False
+    stamp = line.stamp
+    line.period()
+    line.placing.sensed(stamp, ['edge', 'readings'], [math.nan, 0.0])
     assert line.ask(*GOAL) == NO_EDGE
 
 
@@ -336,6 +339,16 @@ def test_whatever_the_estimate_says_the_command_is_finite_and_bounded():
     assert line.placing.released == 0
 
 
+@pytest.mark.parametrize('stamp', [(2**31 - 1, 0), (0, 0), (-1, 0)])
+def test_an_estimate_of_no_control_period_is_none(stamp):
+    line = serving(5)
+    line.placing.sensed(stamp, ['contradiction'], [2.0])
+    for _ in range(8):
+        line.period()
+    assert line.placing.stage in (LEARNING, PLACING)
+    assert line.states[-1]['estimate_age'] == pytest.approx(PERIOD)
+
+
 def test_without_estimates_the_law_does_for_half_a_second_and_then_stops():
     line = serving()
     line.senses = False
@@ -383,12 +396,12 @@ def test_at_the_moment_it_is_let_go(ending):
 @pytest.mark.parametrize(
     ('happens', 'stage'),
     [
-        (lambda placing: placing.cancel(), CANCELLED),
-        (lambda placing: placing.goal('', 0.0, STRAIGHT), PLACING),
-        (lambda placing: placing._push.notice_another_command(), PLACING),
-        (lambda placing: placing._push.notice_clock_jump(0.0), PLACING),
+        (lambda line: line.placing.cancel(), CANCELLED),
+        (lambda line: line.placing.goal('', 0.0, STRAIGHT), PLACING),
+        (lambda line: line.control.push.notice_another_command(), PLACING),
+        (lambda line: line.control.push.notice_clock_jump(0.0), PLACING),
         (
-            lambda placing: placing.sensed((2**31, 0), ['contradiction'], [2.0]),
+            lambda line: line.placing.sensed(line.stamp, ['contradiction'], [2.0]),
             CONTRADICTED,
         ),
     ],

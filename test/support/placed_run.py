@@ -65,7 +65,7 @@ class Line:
         self._said = 0  # in this period
         self._v_x = None
         self._free_in = math.nan  # [s]
-        self.before_release = lambda placing: None
+        self.before_release = lambda line: None
         self.control.push.activate(seconds(*self.stamp))
 
     @property
@@ -164,7 +164,7 @@ class Line:
         if self._free_in <= duration:
             self._step(self._free_in)
             duration -= self._free_in
-            self.before_release(self.placing)
+            self.before_release(self)
             if self.placing.release():
                 self._hear(PLACE_RELEASE, {'data': True})
                 self.placed.append((self.centre - self.home, self.rig.theta))
