@@ -18,6 +18,7 @@ from rich.console import Console
 from rich.progress import Progress
 
 from faults.interrupt import interrupt_once
+from faults.place_rows import PLACES
 from faults.promise import PLAIN, BrokenPromiseError
 from faults.table import start_bench
 from fuzzing.chain import FuzzError, run
@@ -38,13 +39,15 @@ def fuzz_bytes(total: int, seed: int, progress: Callable[[int], None]) -> str:
 
 def fuzz_messages(progress: Callable[[str], None]) -> str:
     """Send messages to the nodes and say in a line what came of them."""
-    bench = start_bench(PLAIN)
-    try:
-        sent = send_extremes(bench, progress)
-    finally:
-        complaints = bench.close()
-    if complaints:
-        raise FuzzError('; '.join(complaints))
+    sent = 0
+    for setup in (PLAIN, PLACES):
+        bench = start_bench(setup)
+        try:
+            sent += send_extremes(bench, progress)
+        finally:
+            complaints = bench.close()
+        if complaints:
+            raise FuzzError('; '.join(complaints))
     return f'{sent} messages: all nodes run, all commands finite, the finger pushes again'
 
 

@@ -12,6 +12,7 @@ from geometry_msgs.msg import TwistStamped
 from sensor_msgs.msg import JointState
 
 from faults.bench import Bench
+from faults.finger import goal
 from tactile_push.control import HELD
 from tactile_push.testing import field
 
@@ -45,26 +46,16 @@ def send_extremes(bench: Bench, progress: Callable[[str], None] = lambda what: N
         If the finger does not push afterwards.
     """
     finger = bench.finger
-    joints = bench.observer.hear(JointState, finger.name('joint_states'))
-    finger.push()
-    bench.observer.wait_for(lambda: joints, 'joint states')
-    finger.nodes.start('active_sensing', {})
-    state = finger.name('push_controller/state')
-    bench.observer.wait_for(
-        lambda: bench.observer.node.count_subscribers(state) > 1, 'active_sensing to listen'
-    )
-    topics: dict[str, Any] = {
-        'contact': finger.contacts[-1],
-        'tactile': finger.tactile[-1],
-        'joint_states': joints[-1],
-        'push_controller/state': finger.states[-1],
-        'finger/cmd_vel': TwistStamped(),
-    }
+    places = bench.setup.places
+    topics = _of_placing(bench) if places else _of_pushing(bench)
     sent = 0
     for topic, valid in topics.items():
         for what, message in extremes(valid):
             progress(f'{topic}: {what}')
-            finger.publish(topic, message)
+            if places:  # with the stamps of real periods, whose commands are no foreign ones
+                bench.observer.publish(finger.name(topic), message)
+            else:
+                finger.publish(topic, message)
             bench.observer.spin(PAUSE)
             sent += 1
             if sent % CLOSE_LOOK == 0:
@@ -77,6 +68,34 @@ def send_extremes(bench: Bench, progress: Callable[[str], None] = lambda what: N
     finger.wait_until_moving(10.0)
     _look(bench, 'at the end')
     return sent
+
+
+def _of_pushing(bench: Bench) -> dict[str, Any]:
+    """Return valid messages by topic that the nodes of law (18) hear."""
+    finger = bench.finger
+    joints = bench.observer.hear(JointState, finger.name('joint_states'))
+    finger.push()
+    bench.observer.wait_for(lambda: joints, 'joint states')
+    finger.nodes.start('active_sensing', {})
+    state = finger.name('push_controller/state')
+    bench.observer.wait_for(
+        lambda: bench.observer.node.count_subscribers(state) > 1, 'active_sensing to listen'
+    )
+    return {
+        'contact': finger.contacts[-1],
+        'tactile': finger.tactile[-1],
+        'joint_states': joints[-1],
+        'push_controller/state': finger.states[-1],
+        'finger/cmd_vel': TwistStamped(),
+    }
+
+
+def _of_placing(bench: Bench) -> dict[str, Any]:
+    """Return those that the law that places hears besides."""
+    estimates = bench.observer.hear(JointState, bench.finger.name('active_sensing/state'))
+    bench.finger.push()
+    bench.observer.wait_for(lambda: estimates, 'an estimate')
+    return {'active_sensing/state': estimates[-1], 'place/goal': goal(0.0)}
 
 
 def _stamped(message: Any) -> Any:
