@@ -47,9 +47,9 @@ from tactile_push.pipeline.messages import place_goal_fields
 from tactile_push.pipeline.stamps import stamp_of
 from tactile_push.recording.recording import Recording
 
-# Without these recorded from the beginning no experiment starts.
 # Of nodes and laws that not every experiment has.
 MORE = (WRENCH, SERVO_COMMANDS, SERVO_STATE, PLACE_GOAL, PLACE_STATE, PLACE_RELEASE)
+# Without these recorded from the beginning no experiment starts.
 AWAITED = tuple(topic for topic in RECORDED if topic not in (CLOCK, PARAMETER_EVENTS, *MORE))
 # That this node sees who hears the controller does not say that the controller sees them, too: on a
 # busy machine active_sensing could miss the first control periods. Picked: on one machine nodes
