@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from tactile_push.control.placing.law import Belief
+from tactile_push.control.placing.believing import Belief
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Pushed
 from tactile_push.mechanics import friction_cone

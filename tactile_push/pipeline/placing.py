@@ -11,7 +11,8 @@ from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 
 from tactile_push.control import CONTACT_SILENT, PUSHING, PushControl, Tick
-from tactile_push.control.placing.law import Belief, PlaceLaw
+from tactile_push.control.placing.believing import Belief
+from tactile_push.control.placing.law import PlaceLaw
 from tactile_push.control.placing.model import Goal, centre_of_mass
 from tactile_push.control.placing.stages import (
     AWAITING_CONTACT,

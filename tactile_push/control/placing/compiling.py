@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 from tactile_push import paper
-from tactile_push.control.placing.law import Belief, PlaceLaw
+from tactile_push.control.placing.believing import Belief
+from tactile_push.control.placing.law import PlaceLaw
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Goal, Pushed, centre_of_mass
 from tactile_push.mechanics import friction_cone

@@ -3,15 +3,15 @@
 """The law that places: it learns where the contact is, plans, and says when to let go."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from tactile_push.control.law import AHEAD, PushLaw, finger_velocity, motion_angle
+from tactile_push.control.law import AHEAD, motion_angle
 from tactile_push.control.placing.arcs import UNKNOWNS, rest_of
+from tactile_push.control.placing.believing import D_MARGIN, Belief, BelievingLaw
 from tactile_push.control.placing.learning import Spread, telling_command
-from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation
-from tactile_push.control.placing.past import Past
+from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation, ahead
 from tactile_push.control.placing.planner import DETOUR, Plan, Planner
 from tactile_push.control.placing.reachability import Task
 from tactile_push.control.placing.stages import (
@@ -29,31 +29,17 @@ NOWHERE = Goal(math.nan, math.nan)  # no goal
 ACTING = (LEARNING, PLACING, LETTING_GO)
 KNOWN = 1e-3  # standard deviation of d below which the law commits itself [m]
 LEARNED_SHARE = 0.08  # of the belt, after which it does so anyhow; picked
-D_MARGIN, SPREADS = 2e-3, 1.0  # kept from the edge's ends [m], and deviations of d beside it
+SPREADS = 1.0  # deviations of d that are kept from the edge's ends beside `D_MARGIN`
 # Nothing is let go of while less is known than these standard deviations [m, rad]: so much belt [m]
 # is kept before the end, but for no longer than a share of all the belt; picked.
 SURE, SURE_ANGLE, KEPT_BACK, KEPT_SHARE = 3.5e-4, math.radians(0.3), 0.01, 0.05
 # Belt at the end of a plan on which a turn that differs from what is believed is made up for [m],
 # the share by which it may differ though c is known, and the drift for which that is worth while.
 LAST_TURN, OWN_DOUBT, CLEAR_DRIFT = 0.02, 0.02, 0.2
-X_MARGIN = 1e-3  # kept from the ends of the workspace [m]
 LARGEST_ANGLE = math.radians(50.0)  # of theta in plans
 
 
-@dataclass(frozen=True)
-class Belief:
-    """What is believed at a reading."""
-
-    x: float  #: centre of the finger's disk across the belt [m]
-    theta: float  #: angle of the pushed edge [rad]
-    d: float  #: contact along the edge [m]
-    pushed: Pushed  #: numbers of object and finger
-    friction: tuple[float, float]  #: least and most mu_c that are to be thought of
-    ends: tuple[float, float]  #: of the edge, least and most d [m]
-    spread: Spread  #: how well they are known
-
-
-class PlaceLaw(PushLaw):
+class PlaceLaw(BelievingLaw):
     """Brings an object to a goal, one push angle a control period.
 
     It takes the place of law (18) in `PushControl`. Until something is believed it pushes straight
@@ -104,20 +90,18 @@ class PlaceLaw(PushLaw):
         phi_min: float = math.radians(33.0),
         phi_max: float = math.radians(147.0),
     ) -> None:
-        super().__init__(0.0, 0.0, goal.theta, phi_min, phi_max)
-        self.belt = belt
-        self._belt_speed = belt_speed
-        self._piece = period * belt_speed
-        self._lag, self._delay = lag * belt_speed, delay * belt_speed
-        steepest = min(1.0 / math.tan(phi_min), -1.0 / math.tan(phi_max))
-        self._bounds = Bounds(
-            *(steepest, rate / belt_speed**2, workspace[0] + X_MARGIN, workspace[1] - X_MARGIN),
-            *(-math.inf, math.inf, LARGEST_ANGLE),
+        super().__init__(
+            *(goal.theta, belt_speed, period),
+            lag=lag,
+            workspace=workspace,
+            rate=rate,
+            phi_min=phi_min,
+            phi_max=phi_max,
         )
+        self.belt = belt
+        self._delay = delay * belt_speed
+        self._bounds = self._bounds._replace(theta_max=LARGEST_ANGLE)
         self._planner = Planner(self._bounds)
-        self._past = Past(self._lag)
-        self._belief: Belief | None = None
-        self._believed_at = 0.0  # on the belt's way [m]
         self.aim_at(goal)
 
     def aim_at(self, goal: Goal) -> None:
@@ -159,33 +143,18 @@ class PlaceLaw(PushLaw):
     def reset(self, phi: float = AHEAD) -> None:
         """Forget the last reading and what was believed, as when the finger has stopped."""
         super().reset(phi)
-        self._belief = None
         self._planner.forget()
 
     def tune(self, kp: float, kd: float, theta_desired: float) -> None:
         """Ignore the gains of law (18) and its angle: this law has a goal."""
 
-    def believe(self, belief: Belief | None, age: float = 0.0) -> None:
-        """Take what is believed; None if nothing is.
-
-        Parameters
-        ----------
-        belief : Belief or None
-            What is believed at a reading.
-        age : float, optional
-            How long before the last update the reading was taken [s].
-        """
-        self._belief = belief
-        self._believed_at = self._past.way - age * self._belt_speed
-
     def pass_time(self, seconds: float) -> None:
         """Take note of the time since the last period [s], in which phi was in force."""
-        way = seconds * self._belt_speed
-        self._past.add(finger_velocity(self.phi, 1.0), way)
+        super().pass_time(seconds)
         if self.stage == LETTING_GO and self._past.way >= self._free_at:
             self.end(RELEASED)
         if self.began and self.stage in (LEARNING, PLACING):
-            self.used += way
+            self.used += seconds * self._belt_speed
             if self.used >= self.belt:
                 self.end(MISSED)
 
@@ -193,22 +162,13 @@ class PlaceLaw(PushLaw):
         """Give the push angle of the next period, as in `PushLaw`."""
         self.began = True
         self._theta_before = theta
-        self._act(theta)
+        self._act()
         return self.phi
 
     def go_on(self) -> None:
         """Plan from older readings in a period without a new one."""
         if self._theta_before is not None:
-            self._act(self._theta_before)
-
-    def present(self) -> tuple[Situation, Belief] | None:
-        """Return where finger and object are now by what is believed; None if nothing is."""
-        belief = self._belief
-        if belief is None:
-            return None
-        belief = replace(belief, pushed=belief.pushed._replace(lag=self._lag))
-        where = belief.x, belief.theta, belief.d
-        return self._past.present(*where, self._believed_at, belief.pushed), belief
+            self._act()
 
     def task(self) -> Task | None:
         """Return from where the goal has to be reached; None if nothing is believed."""
@@ -216,10 +176,9 @@ class PlaceLaw(PushLaw):
         if present is None:
             return None
         now, belief = present
-        bounds = self._bounds._replace(d_min=belief.ends[0], d_max=belief.ends[1])
-        return Task(now, belief.pushed, bounds, max(self.belt - self.used, 0.0))
+        return Task(now, belief.pushed, self._inside(belief, 0.0), max(self.belt - self.used, 0.0))
 
-    def _act(self, theta: float) -> None:
+    def _act(self) -> None:
         """Choose the push angle."""
         self.let_go_in = self.tell_in = math.nan
         if self.stage == LETTING_GO:
@@ -233,7 +192,7 @@ class PlaceLaw(PushLaw):
         if math.isnan(self._aim):
             self._aim = belief.theta
         margin = D_MARGIN + SPREADS * min(belief.spread.d, KNOWN)
-        bounds = self._bounds._replace(d_min=belief.ends[0] + margin, d_max=belief.ends[1] - margin)
+        bounds = self._inside(belief, margin)
         known = belief.spread.d <= KNOWN or self.used > LEARNED_SHARE * self.belt
         if self.stage == LEARNING and known:
             self.stage = PLACING
@@ -272,8 +231,7 @@ class PlaceLaw(PushLaw):
             self.stage = MISSED
         if plan is None or (plan.length < last and not ends):
             # Translating keeps what can be reached for the longest.
-            ahead = -math.tan(now.theta + math.atan2(now.d, belief.pushed.l))
-            return min(max(ahead, -bounds.steepest), bounds.steepest)
+            return ahead(now, belief.pushed, bounds)
         return plan.command(self._piece)
 
     def _least(self, spread: Spread) -> float:

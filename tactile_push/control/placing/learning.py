@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tactile_push.control.placing.model import Bounds, Pushed, Situation, outside, step
+from tactile_push.control.placing.model import Bounds, Pushed, Situation, outside, step, translating
 from tactile_push.control.placing.solving import solve
 from tactile_push.mechanics.compiled import compiled, equation
 from tactile_push.mechanics.resistance import Pressure
@@ -59,7 +59,7 @@ def telling_command(
     best, command = math.inf, 0.0
     # Beside steep ones: along the normal of the edge, where nothing slips outwards, and what keeps
     # theta as it is.
-    others = -math.tan(now.theta), -math.tan(now.theta + math.atan2(now.d, pushed.l))
+    others = -math.tan(now.theta), translating(now, pushed)
     for i in range(len(STEEPNESSES) + 2):
         if i < len(STEEPNESSES):
             first = STEEPNESSES[i] * bounds.steepest

@@ -120,6 +120,40 @@ def outside(now: Situation, bounds: Bounds) -> tuple[float, float, float]:
     )
 
 
+@equation
+def bounded_step(
+    now: Situation, command: float, h: float, pushed: Pushed, bounds: Bounds
+) -> tuple[Situation, bool]:
+    """Move as `step` does while the command changes no faster than it may."""
+    change = bounds.rate * h
+    allowed = min(max(command, now.command - change), now.command + change)
+    return step(now, allowed, h, pushed)
+
+
+@equation
+def translating(now: Situation, pushed: Pushed) -> float:
+    """Return the command under which the object translates if the contact sticks."""
+    return -math.tan(now.theta + math.atan2(now.d, pushed.l))
+
+
+@equation
+def ahead(now: Situation, pushed: Pushed, bounds: Bounds) -> float:
+    """Return that command, or the steepest that comes nearest to it."""
+    return min(max(translating(now, pushed), -bounds.steepest), bounds.steepest)
+
+
+def narrowed(bounds: Bounds, steepness: float, x: float, d: float, theta: float) -> Bounds:
+    """Return bounds that spare a share of the steepness, and of x, d [m] and theta [rad]."""
+    return bounds._replace(
+        steepest=(1.0 - steepness) * bounds.steepest,
+        x_min=bounds.x_min + x,
+        x_max=bounds.x_max - x,
+        d_min=bounds.d_min + d,
+        d_max=bounds.d_max - d,
+        theta_max=bounds.theta_max - theta,
+    )
+
+
 @compiled
 def follow(now: Situation, command: float, way: float, pushed: Pushed) -> Situation:
     """Move by a piece of belt under one command, as long as one likes."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from tactile_push.control.placing.arcs import ARCS, LENGTH, UNKNOWNS, rest_of
 from tactile_push.control.placing.horizon import plan
-from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation
+from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation, narrowed
 from tactile_push.control.placing.refinement import refine
 from tactile_push.mechanics.compiled import Array
 
@@ -103,7 +103,7 @@ class Look(NamedTuple):
 LIKELY = Taken(0, False)
 LIKELY_LOOKS = Look(LIKELY, spares=True), Look(LIKELY)
 
-Task = tuple[Situation, Goal, Pushed]
+Problem = tuple[Situation, Goal, Pushed]
 
 
 class Planner:
@@ -207,19 +207,19 @@ class Planner:
         return taken in (LIKELY, self._taken) and new.merit < best.merit - KEPT
 
     def _rest(
-        self, task: Task, bounds: Bounds, least: float, most: float, way: float
+        self, problem: Problem, bounds: Bounds, least: float, most: float, way: float
     ) -> Plan | None:
         """Go on with the last plan."""
         if self._last is None:
             return None
         push = np.empty(UNKNOWNS)
         rest_of(self._last.push, way, push)
-        told = refine(push, *task, bounds, least, most, WARM_ROUNDS)
+        told = refine(push, *problem, bounds, least, most, WARM_ROUNDS)
         return Plan(push, *told) if told[0] < math.inf else None
 
 
 def new_plan(
-    task: Task,
+    problem: Problem,
     bounds: Bounds,
     least: float,
     most: float,
@@ -231,7 +231,7 @@ def new_plan(
 
     Parameters
     ----------
-    task : tuple of Situation, Goal and Pushed
+    problem : tuple of Situation, Goal and Pushed
         From where and to where, under which numbers.
     bounds : Bounds
         What the plan keeps to.
@@ -248,7 +248,7 @@ def new_plan(
         The best one found; None if contact is lost whatever is done.
     """
     push = np.empty(UNKNOWNS)
-    told = plan(*task, bounds, least, most, TRIES, tries, ROUNDS, roundabout, push)
+    told = plan(*problem, bounds, least, most, TRIES, tries, ROUNDS, roundabout, push)
     return Plan(push, *told) if told[0] < math.inf else None
 
 
@@ -261,14 +261,7 @@ def _looks(kinds: int) -> tuple[Look, ...]:
 
 def _spared(bounds: Bounds) -> Bounds:
     """Return narrower bounds."""
-    return bounds._replace(
-        steepest=(1.0 - SPARED) * bounds.steepest,
-        x_min=bounds.x_min + X_SPARED,
-        x_max=bounds.x_max - X_SPARED,
-        d_min=bounds.d_min + D_SPARED,
-        d_max=bounds.d_max - D_SPARED,
-        theta_max=bounds.theta_max - THETA_SPARED,
-    )
+    return narrowed(bounds, SPARED, X_SPARED, D_SPARED, THETA_SPARED)
 
 
 def _first_that_arrives(plans: Iterable[Plan | None]) -> Plan | None:

@@ -7,7 +7,14 @@ from collections.abc import Generator
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
-from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation, centre_of_mass
+from tactile_push.control.placing.model import (
+    Bounds,
+    Goal,
+    Pushed,
+    Situation,
+    centre_of_mass,
+    narrowed,
+)
 from tactile_push.control.placing.planner import Plan, new_plan
 from tactile_push.control.placing.stages import (
     AT_THE_LIMITS,
@@ -51,8 +58,8 @@ class Task:
 
     def plan(self, goal: Goal, *, roundabout: bool = False) -> Plan | None:
         """Return the best plan for a goal, with another push first if it is `roundabout`."""
-        task = self.now, goal, self.pushed
-        return new_plan(task, self.bounds, 0.0, self.belt, roundabout=roundabout)
+        problem = self.now, goal, self.pushed
+        return new_plan(problem, self.bounds, 0.0, self.belt, roundabout=roundabout)
 
     def arrives(self, goal: Goal) -> bool:
         """Return whether there is a plan that gets to a goal."""
@@ -136,19 +143,8 @@ def judging(task: Task, goal: Goal) -> Generator[None, None, Reach]:
 
 def with_reserve(task: Task) -> Task:
     """Return a task that spares some of everything that is limited."""
-    bounds = task.bounds
-    return replace(
-        task,
-        belt=(1.0 - BELT_SPARED) * task.belt,
-        bounds=bounds._replace(
-            steepest=(1.0 - STEEPNESS_SPARED) * bounds.steepest,
-            x_min=bounds.x_min + SPARED,
-            x_max=bounds.x_max - SPARED,
-            d_min=bounds.d_min + SPARED,
-            d_max=bounds.d_max - SPARED,
-            theta_max=bounds.theta_max - THETA_SPARED,
-        ),
-    )
+    bounds = narrowed(task.bounds, STEEPNESS_SPARED, SPARED, SPARED, THETA_SPARED)
+    return replace(task, belt=(1.0 - BELT_SPARED) * task.belt, bounds=bounds)
 
 
 def _reason(task: Task, goal: Goal) -> Generator[None, None, str]:

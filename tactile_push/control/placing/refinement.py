@@ -13,9 +13,9 @@ from tactile_push.control.placing.model import (
     Goal,
     Pushed,
     Situation,
+    bounded_step,
     centre_of_mass,
     outside,
-    step,
 )
 from tactile_push.control.placing.solving import solve
 from tactile_push.mechanics.compiled import Array, compiled, equation
@@ -83,10 +83,8 @@ def residuals(
     for i in range(ARCS):
         h = push[ARCS + i] * LENGTH / counts[i]
         length += push[ARCS + i] * LENGTH
-        change = bounds.rate * h
         for _ in range(counts[i]):
-            command = min(max(push[i], now.command - change), now.command + change)
-            now, pushes = step(now, command, h, pushed)
+            now, pushes = bounded_step(now, push[i], h, pushed, bounds)
             if not pushes:
                 return math.inf
             d, x, theta = outside(now, bounds)

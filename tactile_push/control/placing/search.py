@@ -18,6 +18,7 @@ from tactile_push.control.placing.model import (
     centre_of_mass,
     outside,
     step,
+    translating,
 )
 from tactile_push.mechanics.compiled import Array, compiled, equation
 
@@ -205,7 +206,7 @@ def _translate(
     """
     nothing = math.inf, 0.0, 0.0, 0.0, 0.0
     # What turns on the way there goes on while the finger gets to its new command.
-    drift = -math.tan(now.theta + math.atan2(now.d, pushed.l))
+    drift = translating(now, pushed)
     if abs(drift) > bounds.steepest:
         return nothing
     rest = Situation(now.x, now.theta, now.d, drift, drift)

@@ -7,8 +7,15 @@ docs/steering.md says why it is chosen so.
 
 import math
 
-from tactile_push.control.placing.model import Bounds, Pushed, Situation, outside, step
-from tactile_push.mechanics.compiled import compiled, equation
+from tactile_push.control.placing.model import (
+    Bounds,
+    Pushed,
+    Situation,
+    ahead,
+    bounded_step,
+    outside,
+)
+from tactile_push.mechanics.compiled import compiled
 
 COMMANDS = 9  # that are tried, from one bound to the other
 HALVINGS = 24  # between two of them
@@ -24,22 +31,6 @@ D_WEIGHT, X_WEIGHT = 2e3, 2e3  # of a metre beyond the ends of the edge and of t
 LOST = 1e3  # cost of a push that loses the object
 
 
-@equation
-def ahead(now: Situation, pushed: Pushed, bounds: Bounds) -> float:
-    """Return the command under which the object translates if the contact sticks."""
-    chi = now.theta + math.atan2(now.d, pushed.l)
-    return min(max(-math.tan(chi), -bounds.steepest), bounds.steepest)
-
-
-@equation
-def _towards(now: Situation, command: float, h: float, pushed: Pushed, bounds: Bounds) -> Situation:
-    """Move by a step while the command changes no faster than it may."""
-    change = bounds.rate * h
-    allowed = min(max(command, now.command - change), now.command + change)
-    after, _ = step(now, allowed, h, pushed)
-    return after
-
-
 @compiled
 def _miss(
     now: Situation, command: float, theta: float, piece: float, pushed: Pushed, bounds: Bounds
@@ -48,11 +39,12 @@ def _miss(
     way = WITHIN * piece
     count = max(1, math.ceil(way / STEP))
     for _ in range(count):
-        now = _towards(now, command, way / count, pushed, bounds)
+        now, _ = bounded_step(now, command, way / count, pushed, bounds)
     rest = REST * pushed.lag
     count = math.ceil(rest / STEP)
     for _ in range(count):
-        now = _towards(now, ahead(now, pushed, bounds), rest / count, pushed, bounds)
+        still = ahead(now, pushed, bounds)
+        now, _ = bounded_step(now, still, rest / count, pushed, bounds)
     return now.theta - theta
 
 
@@ -136,9 +128,7 @@ def _cost(
     cost, side = 0.0, 0.0
     for k in range(int(HORIZON / COARSE)):
         command = first if k * COARSE < switch else second
-        change = bounds.rate * COARSE
-        allowed = min(max(command, now.command - change), now.command + change)
-        now, pushes = step(now, allowed, COARSE, pushed)
+        now, pushes = bounded_step(now, command, COARSE, pushed, bounds)
         if not pushes:
             return cost + LOST
         off = now.theta - theta

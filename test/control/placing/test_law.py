@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from tactile_push.control import NO_REASON, NOTHING_TO_DO
-from tactile_push.control.placing.law import NOWHERE, Belief, PlaceLaw
+from tactile_push.control.placing.believing import Belief
+from tactile_push.control.placing.law import NOWHERE, PlaceLaw
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Goal, Pushed, Situation, centre_of_mass, follow
 from tactile_push.control.placing.stages import (

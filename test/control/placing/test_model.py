@@ -11,9 +11,13 @@ from tactile_push.control.placing.model import (
     Bounds,
     Pushed,
     Situation,
+    ahead,
+    bounded_step,
     centre_of_mass,
     follow,
+    narrowed,
     outside,
+    translating,
 )
 from tactile_push.mechanics import Outline, Pose, Slider, friction_cone
 from tactile_push.mechanics.body import Finger
@@ -63,3 +67,29 @@ def test_what_is_outside_is_told_one_by_one():
     assert outside(Situation(0.0, 0.1, 0.01, 0.0, 0.0), bounds) == (0.0, 0.0, 0.0)
     found = outside(Situation(-0.103, -0.6, 0.021, 0.0, 0.0), bounds)
     assert found == pytest.approx((0.001, 0.003, 0.1))
+
+
+def test_an_object_that_translates_does_not_turn_and_steeper_commands_are_bounded():
+    bounds = Bounds(0.5, 2000.0, -0.1, 0.1, -0.02, 0.02, 0.5)
+    now = Situation(0.0, 0.2, -0.006, 0.0, 0.0)
+    after = follow(now, translating(now, pushed()), 1e-3, pushed())
+    assert after.theta == pytest.approx(now.theta, abs=1e-9)
+    assert ahead(now, pushed(), bounds) == translating(now, pushed())
+    steep = Situation(0.0, 0.9, 0.0, 0.0, 0.0)
+    assert ahead(steep, pushed(), bounds) == -0.5 > translating(steep, pushed())
+
+
+def test_a_command_changes_no_faster_than_it_may():
+    bounds = Bounds(1.5, 100.0, -0.1, 0.1, -0.02, 0.02, 0.5)
+    now = Situation(0.0, 0.2, -0.006, 0.3, 0.3)
+    after, pushes = bounded_step(now, -1.5, 1e-3, pushed(), bounds)
+    assert pushes
+    assert after.command == pytest.approx(0.3 - 100.0 * 1e-3)
+    assert bounded_step(now, 0.35, 1e-3, pushed(), bounds)[0].command == 0.35
+
+
+def test_narrower_bounds_spare_some_of_each():
+    bounds = Bounds(1.5, 2000.0, -0.1, 0.2, -0.02, 0.03, 0.5)
+    assert narrowed(bounds, 0.2, 0.01, 0.002, 0.1) == pytest.approx(
+        (1.2, 2000.0, -0.09, 0.19, -0.018, 0.028, 0.4)
+    )

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from tactile_push.control.placing.law import Belief
+from tactile_push.control.placing.believing import Belief
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Pushed, Situation, follow
 from tactile_push.control.placing.settle_law import SettleLaw
@@ -38,6 +38,7 @@ def driven(one, d_error=0.0, periods=100):
     for _ in range(periods):
         if before is not None:
             one.believe(belief(before, d_error))
+            one.pass_time(PERIOD)
         phi = one.update(now.theta)
         assert one.phi_min <= phi <= one.phi_max
         thetas.append(now.theta)
@@ -79,4 +80,5 @@ def test_it_goes_on_from_what_the_finger_was_told_where_that_was_less():
         one.update(now.theta)
         one.believe(belief(now))
     one.phi = AHEAD  # as where the finger may not go farther
+    one.pass_time(PERIOD)
     assert one.update(now.theta) == one.phi_max
