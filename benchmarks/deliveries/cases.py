@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tactile_push import paper
-from tactile_push.control.placing.model import Bounds, Goal, Situation, follow
+from tactile_push.control.placing.model import Bounds, Goal, Situation, ahead, follow
 from tactile_push.control.placing.planner import Plan, new_plan
 from tactile_push.control.placing.reachability import Task, reach, with_reserve
 from tactile_push.control.placing.search import FAMILIES
@@ -19,7 +19,7 @@ from tactile_push.mechanics import Outline, Slider, Support
 from tactile_push.mechanics.support import COUNT
 from tactile_push.simulation import Rig, RigConfig
 from tactile_push.simulation.faults import Faults
-from tactile_push.simulation.placement import pushed_of
+from tactile_push.simulation.placement import pushed_of, turning_of
 from tactile_push.simulation.sensor import Sensor
 from tactile_push.simulation.servo import Servo
 
@@ -92,8 +92,8 @@ def case(seed: int, group: Group) -> Case:
         x + float(rng.uniform(-WIDEST_X, WIDEST_X)),
         float(rng.uniform(-WIDEST_THETA, WIDEST_THETA)),
     )
-    turning = config.finger.turning(*rig.joints[:2]) if group.tip_turns else 0.0
-    pushed = pushed_of(config)._replace(lag=group.lag * config.belt_speed, turning=turning)
+    lag = group.lag * config.belt_speed
+    pushed = pushed_of(config)._replace(lag=lag, turning=turning_of(rig))
     bounds = Bounds(1.0 / math.tan(paper.PHI_MIN), RATE, *WORKSPACE, *edge.d, THETA_MAX)
     task = Task(Situation(x, theta, d, 0.0, 0.0), pushed, bounds, group.belt)
     verdict = reach(task, goal).verdict
@@ -138,9 +138,8 @@ def _later(task: Task) -> Iterator[tuple[Task, float]]:
 
 def _held(task: Task) -> Task:
     """Return what is left of a task after the object has translated for a while."""
-    steepest, now = task.bounds.steepest, task.now
-    ahead = -math.tan(now.theta + math.atan2(now.d, task.pushed.l))
-    then = follow(now, min(max(ahead, -steepest), steepest), HELD, task.pushed)
+    now, pushed = task.now, task.pushed
+    then = follow(now, ahead(now, pushed, task.bounds), HELD, pushed)
     return replace(task, now=then, belt=task.belt - HELD)
 
 

@@ -7,7 +7,7 @@ import math
 from tactile_push import paper
 from tactile_push.control import PushLaw
 from tactile_push.control.law import AHEAD
-from tactile_push.control.placing.law import Belief
+from tactile_push.control.placing.believing import Belief
 from tactile_push.control.placing.model import Goal, Situation, centre_of_mass
 from tactile_push.control.placing.stages import MISSED, PLACING, RELEASED
 

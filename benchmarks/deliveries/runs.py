@@ -10,7 +10,8 @@ import numpy as np
 from deliveries.cases import WORKSPACE, Case, Group, case, long_search, rig_of
 from deliveries.rivals import Rival
 from tactile_push import paper
-from tactile_push.control.placing.law import Belief, PlaceLaw
+from tactile_push.control.placing.believing import Belief
+from tactile_push.control.placing.law import PlaceLaw
 from tactile_push.control.placing.model import Bounds, Situation
 from tactile_push.control.placing.reachability import Task, reach
 from tactile_push.control.placing.stages import LEARNING, OUT_OF_REACH, RELEASED, WITH_RESERVE

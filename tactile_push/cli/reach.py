@@ -127,10 +127,8 @@ def _task(options: argparse.Namespace) -> 'tuple[Task, float]':
     from tactile_push.control.placing.model import Bounds, Situation
     from tactile_push.control.placing.reachability import Task
     from tactile_push.mechanics import Slider
-    from tactile_push.mechanics.contact import D_START
-    from tactile_push.mechanics.contact import LENGTH as OF_PIECE
     from tactile_push.simulation.by_touch import LAG, check_edges
-    from tactile_push.simulation.placement import pushed_of
+    from tactile_push.simulation.placement import edge_ends, pushed_of
 
     config = config_of(options)
     if hasattr(options, 'c_mm'):
@@ -143,13 +141,13 @@ def _task(options: argparse.Namespace) -> 'tuple[Task, float]':
             f'--x0-mm: expected {1e3 * limits.workspace_min:g} to {1e3 * limits.workspace_max:g}, '
             f'the workspace, got {1e3 * x:g}'
         )
-    path, start = config.body.path, float(config.body.path[0, D_START])
-    d = config.d if config.d is not None else min(max(0.0, start), start + float(path[0, OF_PIECE]))
+    ends = edge_ends(config)
+    d = config.d if config.d is not None else min(max(0.0, ends[0]), ends[1])
     bounds = Bounds(
         1.0 / math.tan(paper.PHI_MIN),
         limits.max_acceleration / config.belt_speed**2,
         *(limits.workspace_min, limits.workspace_max),
-        *(start, start + float(path[0, OF_PIECE]), LARGEST_ANGLE),
+        *(*ends, LARGEST_ANGLE),
     )
     pushed = pushed_of(config)._replace(
         turning=finger.turning(*finger.inverse(x, config.tip.y)), lag=LAG * config.belt_speed

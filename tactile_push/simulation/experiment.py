@@ -7,8 +7,6 @@ from collections.abc import Iterator
 from itertools import count
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from tactile_push.control import (
     PUSHING,
     WAITING,
@@ -24,8 +22,9 @@ from tactile_push.pipeline import Control, Geometry, Stamp
 from tactile_push.simulation.faults import NO_FAULTS, Faults
 from tactile_push.simulation.joint_rig import Mover
 from tactile_push.simulation.rig import Rig, RigConfig
-from tactile_push.simulation.rollout import MODE, QUANTITIES, Rollout, check_time
+from tactile_push.simulation.rollout import Rollout, check_time
 from tactile_push.simulation.sensor import Readout
+from tactile_push.simulation.trace import Trace
 from tactile_push.tactile import ContactFinder
 from tactile_push.tactile.pole_history import JOINT_STATE_TIMEOUT
 
@@ -93,22 +92,17 @@ def experiment(
         )
     rig = Rig(config, faults)
     push = PushControl(law, config.belt_speed, period, limits, steadying)
-    history = np.full((steps + 1, QUANTITIES), np.nan)
-    done, end = 0, 'done'
+    trace, end = Trace(), 'done'
     for tick in control_periods(rig, push, readings, seed):
-        if done:
-            history[done - 1, MODE] = rig.mode
         if tick.state == PUSHING:
-            pose = rig.object_pose
-            history[done] = rig.theta, tick.phi, rig.d, pose.x, pose.y, rig.mode
-            done += 1
-            if done > steps:
+            trace.add(rig, tick.phi)
+            if len(trace) > steps:
                 break
         elif not _waits(tick, push):
+            trace.close(rig)
             end = tick.stop_reason or tick.state
             break
-    theta, phi, d, x, y, mode = history[:done].T
-    return Rollout(theta, phi, d, x, y, mode.astype(np.int64), end)
+    return trace.run(end)
 
 
 def control_periods(

@@ -17,6 +17,7 @@ from tactile_push.simulation.by_touch import LAG, NOISE, check_edges, faults_of,
 from tactile_push.simulation.placement import Placement, place
 from tactile_push.simulation.rig import Rig, RigConfig
 from tactile_push.simulation.rollout import Rollout
+from tactile_push.simulation.trace import Trace
 
 if typing.TYPE_CHECKING:
     from tactile_push.simulation.mujoco_rig import MujocoRig
@@ -61,7 +62,8 @@ def placed_run(config: RigConfig, goal: Goal, steps: int, seed: int = 0) -> Plac
         If the object has no straight edges.
     """
     check_edges(config, 'place')
-    rows: list[tuple[float, ...]] = []
+    trace = Trace()
+    finger: list[tuple[float, float]] = []
     sensing = sensing_of(config, NOISE, LAG)
     law = PlaceLaw(
         Goal(config.tip.x + goal.x, goal.theta),
@@ -71,13 +73,10 @@ def placed_run(config: RigConfig, goal: Goal, steps: int, seed: int = 0) -> Plac
     )
 
     def watch(rig: 'Rig | MujocoRig', tick: Tick) -> None:
-        pose = rig.object_pose
-        moved = rig.theta, tick.phi, rig.d, pose.x, pose.y, rig.mode
-        rows.append((*moved, rig.finger_x, rig.finger_y))
+        trace.add(rig, tick.phi)
+        finger.append((rig.finger_x, rig.finger_y))
 
     rig = Rig(config, faults_of(NOISE, LAG))
     done = place(rig, law, sensing=sensing, seed=seed, watch=watch)
-    theta, phi, d, x, y, mode, finger_x, finger_y = np.array(rows).T
     end = {RELEASED: 'done', MISSED: MISSED}.get(done.stage, done.end or done.stage)
-    run = Rollout(theta, phi, d, x, y, mode.astype(np.int64), end)
-    return PlacedRun(run, np.stack([finger_x, finger_y], axis=1), goal, done)
+    return PlacedRun(trace.run(end), np.array(finger), goal, done)

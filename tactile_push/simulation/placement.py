@@ -4,13 +4,14 @@
 
 import math
 import typing
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from tactile_push.control import PUSHING, WAITING, Limits, PushControl, Tick
-from tactile_push.control.placing.law import Belief, PlaceLaw
+from tactile_push.control.placing.believing import Belief, BelievingLaw
+from tactile_push.control.placing.law import PlaceLaw
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Pushed
 from tactile_push.control.placing.stages import LEARNING, MISSED
@@ -76,12 +77,9 @@ def place(
     Placement
         How the object lies when the finger lets go, or stops.
     """
-    config = rig.config
-    push = PushControl(law, config.belt_speed, period, limits)
-    steps = None if sensing is None else Sensing(sensing, lambda k, _: k * period)
-    piece = period * config.belt_speed
+    push = PushControl(law, rig.config.belt_speed, period, limits)
     learned, end = 0.0, ''
-    for k, tick in enumerate(control_periods(rig, push, 1, seed)):
+    for tick in believing(rig, push, law, sensing, seed):
         watch(rig, tick)
         if tick.state not in (PUSHING, WAITING) or tick.silence > push.limits.contact_timeout:
             end = tick.stop_reason or tick.state
@@ -94,14 +92,42 @@ def place(
             break
         if law.stage == LEARNING:
             learned = law.used
+    x = rig.object_in_finger_disk.x + rig.finger_pose.x
+    return Placement(law.stage, end, x - law.goal.x, rig.theta - law.goal.theta, law.used, learned)
+
+
+def believing(
+    rig: 'Rig | MujocoRig',
+    push: PushControl,
+    law: BelievingLaw,
+    sensing: ActiveSensing | None,
+    seed: int,
+) -> Iterator[Tick]:
+    """Run a law on a rig, as `control_periods` does, and tell it what is believed of each reading.
+
+    Parameters
+    ----------
+    rig, push, law : Rig or MujocoRig, PushControl, BelievingLaw
+        The rig, and the control with its law.
+    sensing : ActiveSensing or None
+        What it believes; None for the truth.
+    seed : int
+        Of the sensor's errors.
+
+    Yields
+    ------
+    Tick
+        What the control used and gave in each control period, before the law is told of it.
+    """
+    piece = push.period * push.belt_speed
+    steps = None if sensing is None else Sensing(sensing, lambda k, _: k * push.period)
+    for k, tick in enumerate(control_periods(rig, push, 1, seed)):
+        yield tick
         if steps is None:
             law.believe(_truth(rig, piece))
         else:
-            sensed = steps.tick((k, 0), tick)
-            x, turning = rig.finger_pose.x, _turning(rig)
-            law.believe(belief_of(sensed.values, x, turning, piece))
-    x = rig.object_in_finger_disk.x + rig.finger_pose.x
-    return Placement(law.stage, end, x - law.goal.x, rig.theta - law.goal.theta, law.used, learned)
+            values = steps.tick((k, 0), tick).values
+            law.believe(belief_of(values, rig.finger_pose.x, turning_of(rig), piece))
 
 
 def pressure_of(slider: Slider) -> Pressure:
@@ -134,17 +160,21 @@ def pushed_of(config: RigConfig) -> Pushed:
     return Pushed(l, config.radius, pressure, cos_alpha, sin_alpha, 0.0, 0.0)
 
 
-def _truth(rig: 'Rig | MujocoRig', piece: float) -> Belief:
-    config = rig.config
+def edge_ends(config: RigConfig) -> tuple[float, float]:
+    """Return the least and the most d of the edge that is pushed [m]."""
     path = config.body.path
     start = float(path[0, D_START])
-    spread = Spread(CERTAIN, CERTAIN, CERTAIN, CERTAIN, piece)
-    ends = start, start + float(path[0, LENGTH])
-    pushed = pushed_of(config)._replace(turning=_turning(rig))
-    friction = config.mu_c, config.mu_c
-    return Belief(rig.finger_pose.x, rig.theta, rig.d, pushed, friction, ends, spread)
+    return start, start + float(path[0, LENGTH])
 
 
-def _turning(rig: 'Rig | MujocoRig') -> float:
+def turning_of(rig: 'Rig | MujocoRig') -> float:
     """Return by how much the tip turns for each metre across the belt [rad/m]."""
     return rig.config.finger.turning(*rig.joints[:2]) if rig.config.tip_turns else 0.0
+
+
+def _truth(rig: 'Rig | MujocoRig', piece: float) -> Belief:
+    config = rig.config
+    spread = Spread(CERTAIN, CERTAIN, CERTAIN, CERTAIN, piece)
+    pushed = pushed_of(config)._replace(turning=turning_of(rig))
+    friction = config.mu_c, config.mu_c
+    return Belief(rig.finger_pose.x, rig.theta, rig.d, pushed, friction, edge_ends(config), spread)

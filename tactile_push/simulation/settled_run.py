@@ -4,17 +4,14 @@
 
 from dataclasses import replace
 
-import numpy as np
-
 from tactile_push import paper
 from tactile_push.control import PUSHING, PushControl
 from tactile_push.control.placing.settle_law import SettleLaw
-from tactile_push.pipeline import Sensing
-from tactile_push.pipeline.belief import belief_of
 from tactile_push.simulation.by_touch import LAG, NOISE, check_edges, faults_of, sensing_of
-from tactile_push.simulation.experiment import control_periods
+from tactile_push.simulation.placement import believing
 from tactile_push.simulation.rig import Rig, RigConfig
 from tactile_push.simulation.rollout import Rollout, check_time
+from tactile_push.simulation.trace import Trace
 
 
 def settled_run(
@@ -59,24 +56,15 @@ def settled_run(
     check_time(steps, period)
     check_edges(config, 'settle')
     rig = Rig(replace(config, tip_turns=True), faults_of(noise, lag))
-    knows = Sensing(sensing_of(config, noise, lag), lambda k, _: k * period)
     law = SettleLaw(theta, config.belt_speed, period, lag=lag)
     push = PushControl(law, config.belt_speed, period)
-    rows: list[tuple[float, ...]] = []
-    end = 'done'
-    for k, tick in enumerate(control_periods(rig, push, 1, seed)):
-        if rows:
-            rows[-1] = (*rows[-1][:-1], rig.mode)
+    trace, end = Trace(), 'done'
+    for tick in believing(rig, push, law, sensing_of(config, noise, lag), seed):
         if tick.state != PUSHING:
+            trace.close(rig)
             end = tick.stop_reason or tick.state
             break
-        pose = rig.object_pose
-        rows.append((rig.theta, tick.phi, rig.d, pose.x, pose.y, rig.mode))
-        if len(rows) > steps:
+        trace.add(rig, tick.phi)
+        if len(trace) > steps:
             break
-        sensed = knows.tick((k, 0), tick)
-        turning = rig.config.finger.turning(*rig.joints[:2])
-        where = rig.finger_pose.x, turning, period * config.belt_speed
-        law.believe(belief_of(sensed.values, *where))
-    angles, phi, d, x, y, mode = np.array(rows).T
-    return Rollout(angles, phi, d, x, y, mode.astype(np.int64), end)
+    return trace.run(end)

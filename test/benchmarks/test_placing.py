@@ -15,7 +15,7 @@ sys.path.insert(0, str(BENCHMARKS))
 
 from deliveries import cases, rivals, runs  # noqa: E402
 
-from tactile_push.control.placing.law import Belief  # noqa: E402
+from tactile_push.control.placing.believing import Belief  # noqa: E402
 from tactile_push.control.placing.model import Goal  # noqa: E402
 from tactile_push.control.placing.stages import (  # noqa: E402
     MISSED,

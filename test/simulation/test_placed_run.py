@@ -9,6 +9,7 @@ import pytest
 
 from tactile_push.control.placing.model import Goal
 from tactile_push.control.placing.stages import RELEASED
+from tactile_push.mechanics import STICK
 from tactile_push.simulation import paper_block, paper_disk
 from tactile_push.simulation.placed_run import placed_run
 
@@ -34,6 +35,8 @@ def test_the_way_of_finger_and_object_ends_at_the_goal():
     # d along the edge from the foot of the centre of mass, by plane geometry.
     along = (finger[:, 0] - run.x) * np.cos(run.theta) + (finger[:, 1] - run.y) * np.sin(run.theta)
     assert along == pytest.approx(run.d, abs=1e-9)
+    # mu_c is infinite, and a mode is that at the end of its own period.
+    assert (run.mode == STICK).all()
 
 
 def test_a_round_object_is_refused():
