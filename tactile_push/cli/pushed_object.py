@@ -92,9 +92,8 @@ def config_of(options: argparse.Namespace) -> 'RigConfig':
     if hasattr(options, 'd0_mm'):
         d = options.d0_mm / 1000.0
     theta = math.radians(options.theta0_deg)
-    return RigConfig(
-        slider, getattr(options, 'mu_c', mu_c), theta, d, tip_turns=False
-    )  # as in the equations
+    mu_c = getattr(options, 'mu_c', mu_c)
+    return RigConfig(slider, mu_c, theta, d, tip_turns=False)  # as in the equations
 
 
 def _object(thing: str) -> 'ObjectFile':

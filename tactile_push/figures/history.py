@@ -5,10 +5,10 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-import matplotlib.figure
 import numpy as np
 import numpy.typing as npt
-from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+from tactile_push.figures.style import new_figure
 
 
 def plot_history(
@@ -29,8 +29,7 @@ def plot_history(
     files : sequence of Path
         Where to write; the ending chooses the format.
     """
-    figure = matplotlib.figure.Figure(figsize=(4.8 * len(panels), 3.6), layout='constrained')
-    FigureCanvasAgg(figure)
+    figure = new_figure(4.8 * len(panels), 3.6)
     axes = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
     for axis, (title, (theta, phi, theta_d, band, settled)) in zip(
         axes, panels.items(), strict=True

@@ -8,12 +8,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import matplotlib.axes
-import matplotlib.figure
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from tactile_push.control.placing.model import Goal
-from tactile_push.figures.style import BLACK, BLUE, GREY, ORANGE, PALE, RED
+from tactile_push.figures.style import BLACK, BLUE, GREY, ORANGE, PALE, RED, new_figure
 from tactile_push.mechanics.compiled import Array
 
 MILLIMETRES = 1e3
@@ -49,8 +47,7 @@ def plot_placed(ways: Sequence[PlacedWay], files: Sequence[Path]) -> None:
     files : sequence of Path
         Where to write; the ending chooses the format.
     """
-    figure = matplotlib.figure.Figure(figsize=(8.0, 2.6 * len(ways)), layout='constrained')
-    FigureCanvasAgg(figure)
+    figure = new_figure(8.0, 2.6 * len(ways))
     panels = figure.subplots(len(ways), 1, sharex=True, squeeze=False)[:, 0]
     for axis, way in zip(panels, ways, strict=True):
         _draw(axis, way)

@@ -6,9 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-import matplotlib.figure
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
@@ -23,6 +21,7 @@ from tactile_push.control.placing.stages import (
     WITH_RESERVE,
     WORKSPACE,
 )
+from tactile_push.figures.style import new_figure
 
 MILLIMETRES = 1e3
 # Colours that also differ in grey.
@@ -54,8 +53,7 @@ def plot_reachable(
     """
     kinds = list(COLORS)
     values = np.array([[kinds.index(told) for told in row] for row in found.told])
-    figure = matplotlib.figure.Figure(figsize=(7.2, 4.2), layout='constrained')
-    FigureCanvasAgg(figure)
+    figure = new_figure(7.2, 4.2)
     axes = figure.subplots()
     axes.pcolormesh(
         MILLIMETRES * np.array(found.xs),

@@ -16,12 +16,11 @@ class Pace:
     moves the joints, it waits for the answer to the last joint states and the last command, too. If
     objects are placed, it waits for what a control period has decided, and stops when an object is
     due to be let go until that is said. So a loaded machine makes an experiment slower, not
-    different. Time does not wait for the contact
-    of a reading that is lost, reports no contact or is an outlier: none need follow. A contact may
-    be stamped earlier than its reading by `lag`, as by a sensor node that filters. After `patience`
-    of wall time it no longer waits for what is overdue, until that comes again: whoever sends it
-    has gone. Time in which this process itself stood still does not count, since what is overdue
-    may lie here unread.
+    different. Time does not wait for the contact of a reading that is lost, reports no contact or
+    is an outlier: none need follow. A contact may be stamped earlier than its reading by `lag`, as
+    by a sensor node that filters. After `patience` of wall time it no longer waits for what is
+    overdue, until that comes again: whoever sends it has gone. Time in which this process itself
+    stood still does not count, since what is overdue may lie here unread.
     """
 
     def __init__(
