@@ -9,7 +9,6 @@ move what is fitted.
 
 import math
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,6 +26,7 @@ from tactile_push.identification.predicting import Physics, errors_of, residuals
 from tactile_push.identification.records import Pushes
 from tactile_push.mechanics import Support
 from tactile_push.mechanics.compiled import Array
+from tactile_push.threads import on_all_cores
 
 ROUNDS = 2  # of least squares, after each of which the widths are taken anew
 LONGEST = 15  # evaluations in a round
@@ -68,7 +68,7 @@ class Fitter:
     def __init__(self, model: Model, pushes: Pushes, forces: bool = True) -> None:
         self._model, self._pushes, self._forces = model, pushes, forces
         self._length = Support.uniform(pushes.outline, 1).c  # weighs angles against positions
-        with ThreadPoolExecutor() as pool:
+        with on_all_cores() as pool:
             starts = pool.map(lambda point: self._residual(point, pushes), model.starts)
             self._starts = list(starts)
 
@@ -164,9 +164,9 @@ class Fitter:
 
     def _rates(self, sides: list[tuple[float, Physics]], pushes: Pushes) -> Array:
         """Return the derivatives of the residuals by the numbers, shape (N, 4, numbers)."""
-        with ThreadPoolExecutor() as pool:
+        with on_all_cores() as pool:
             found = pool.map(lambda side: residuals(pushes, side[1], self._forces), sides)
-        change = _by_pairs(sides, list(found))
+            change = _by_pairs(sides, list(found))
         change[:, 2:] -= math.tau * np.round(change[:, 2:] / math.tau)
         return np.nan_to_num(change / _ways(sides))
 

@@ -3,9 +3,7 @@
 """Very many rollouts, on all cores, by the same compiled function as a single one."""
 
 import math
-import os
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
 from itertools import pairwise
 from typing import NamedTuple
@@ -31,6 +29,7 @@ from tactile_push.simulation.rollout import (
 )
 from tactile_push.simulation.servo import Servo
 from tactile_push.simulation.tip import Tip
+from tactile_push.threads import on_all_cores, usable_cores
 
 CHUNKS_PER_WORKER = 8  # so that cores whose runs end early get more; picked
 
@@ -281,18 +280,13 @@ def rollouts(
         _run_many(*borders, runs, bodies, periods, radius, tip, band, histories, ends, stop)
 
     stop = np.zeros(1, dtype=np.int64)  # what the user's interrupt sets
-    workers = (
-        len(os.sched_getaffinity(0)) if hasattr(os, 'sched_getaffinity') else os.cpu_count() or 1
-    )
-    borders = np.linspace(0, count, min(count, workers * CHUNKS_PER_WORKER) + 1).astype(int)
-    with ThreadPoolExecutor(workers) as pool:
+    chunks = min(count, usable_cores() * CHUNKS_PER_WORKER)
+    borders = np.linspace(0, count, chunks + 1).astype(int).tolist()
+    with on_all_cores() as pool:
         try:
-            chunks = [pool.submit(run_chunk, chunk) for chunk in pairwise(borders.tolist())]
-            for chunk in chunks:
-                chunk.result()
+            list(pool.map(run_chunk, pairwise(borders)))
         except BaseException:
             stop[0] = 1
-            pool.shutdown(cancel_futures=True)
             raise
     reached_theta, reached_phi, reached_d, x, y, mode = np.moveaxis(
         histories if history else histories[:, 0], -1, 0

@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which of many goals can be reached from one start, and why the others cannot."""
 
-import os
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from dataclasses import dataclass
 
 from tactile_push.control.placing.model import Goal
 from tactile_push.control.placing.reachability import Reach, Task, reach
+from tactile_push.threads import on_all_cores
 
 
 @dataclass(frozen=True)
@@ -51,19 +51,15 @@ def reachable_set(
         What is said of them; the same every time.
     """
     found: dict[tuple[int, int], Reach] = {}
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        try:
-            tasks = {
-                pool.submit(reach, task, Goal(x, theta)): (row, column)
-                for row, theta in enumerate(thetas)
-                for column, x in enumerate(xs)
-            }
-            for done, one in enumerate(as_completed(tasks), 1):
-                found[tasks[one]] = one.result()
-                progress(done)
-        except BaseException:
-            pool.shutdown(cancel_futures=True)
-            raise
+    with on_all_cores() as pool:
+        tasks = {
+            pool.submit(reach, task, Goal(x, theta)): (row, column)
+            for row, theta in enumerate(thetas)
+            for column, x in enumerate(xs)
+        }
+        for done, one in enumerate(as_completed(tasks), 1):
+            found[tasks[one]] = one.result()
+            progress(done)
     told = [[found[row, column] for column in range(len(xs))] for row in range(len(thetas))]
     words = tuple(tuple((one.verdict, one.reason) for one in row) for row in told)
     return ReachableSet(tuple(xs), tuple(thetas), words)
