@@ -231,7 +231,7 @@ TOPICS = {
             'in `finger_disk`: the position is the contact point [m], the yaw is theta [rad]; '
             'stamped as the reading; nothing is published without a contact',
         ),
-        Topic(GEOMETRY_STATE, JOINT_STATE_TYPE, (CONTACT_GEOMETRY,), (),
+        Topic(GEOMETRY_STATE, JOINT_STATE_TYPE, (CONTACT_GEOMETRY,), PLANTS,
             'what became of each reading; published while somebody subscribes',
             (
                 Field('azimuth', 'rad', 'azimuth of the reading'),

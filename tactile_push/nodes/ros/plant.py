@@ -25,6 +25,7 @@ from tactile_push.interface import (
     CLOCK,
     COMMAND,
     CONTACT,
+    GEOMETRY_STATE,
     JOINT_STATES,
     JOINT_VELOCITIES,
     MARKERS,
@@ -68,6 +69,9 @@ P = TypeVar('P', bound=SimPlantParameters)
 
 MARKER_RATE = 10.0  # [Hz]; fluent enough to the eye
 REPEAT_PERIOD = 0.01  # of time and reading while time stands still [s]; late by no more; picked
+# A reading of which nothing is heard for so many of those periods is lost, and sent again. Sooner,
+# the first one might only be late, and the second one would be taken for the next reading.
+LOST = 25
 LOOK_PERIOD = 1.0  # at who commands [s]; as often as diagnostics report it
 JOINTS = (*TOPICS[JOINT_STATES].field_names, WRIST_JOINT)
 WRENCH_FRAME = 'force_sensor'  # of what the simulated one measures
@@ -112,6 +116,7 @@ class PlantNode(Node, Generic[P]):
         self._steps = 0
         self._sequence = 0
         self._awaited: Reading | None = None  # the last reading, if a contact has to follow
+        self._under_way = 0  # for how many periods of repeating it may still become a contact
         self._time = 0.0
         self._gone = 0.0  # of a step, where time had to stop on its way [s]
         self._last_wall = time.monotonic()
@@ -129,6 +134,7 @@ class PlantNode(Node, Generic[P]):
         if p.publish_clock:
             self._clock_publisher = self.create_publisher(Clock, CLOCK, 10)
             self.create_subscription(PoseStamped, CONTACT, self._on_contact, FRESHEST)
+            self.create_subscription(JointState, GEOMETRY_STATE, self._on_judged_reading, FRESHEST)
             self.create_subscription(JointState, PLACE_STATE, self._on_place_state, 10)
         self.create_subscription(Bool, PLACE_RELEASE, self._on_release, 10)
         self._hear_commands(p)
@@ -204,7 +210,13 @@ class PlantNode(Node, Generic[P]):
 
     def _on_contact(self, message: PoseStamped) -> None:
         self._pace.contact(_seconds(message))
+        self._under_way = 0  # the reading has become it, even if with an old stamp
         self._on_timer()
+
+    def _on_judged_reading(self, message: JointState) -> None:
+        """Take note of a reading that was refused, as one whose stamp was that of the last."""
+        if by_name(message.name, message.position).get('refusal', 0.0) != 0.0:
+            self._under_way = 0
 
     def _on_place_state(self, message: JointState) -> None:
         let_go_in = by_name(message.name, message.position).get('let_go_in', math.nan)
@@ -249,7 +261,10 @@ class PlantNode(Node, Generic[P]):
             self._last_clock = wall
             self._publish_clock()
             if self._awaited is not None and self._pace.contact_overdue:
-                self._send(self._awaited)
+                if self._under_way > 0:
+                    self._under_way -= 1
+                else:
+                    self._send(self._awaited)
 
     def _now(self) -> float:
         """Return the time by which a command ages, which goes on while the rig is held up."""
@@ -318,6 +333,7 @@ class PlantNode(Node, Generic[P]):
 
     def _send(self, reading: Reading) -> None:
         self._device.send(encode(Sentence(self._sequence, reading)))
+        self._under_way = LOST
         self._sequence += 1
         self._counts['readings sent'] += 1
 

@@ -16,6 +16,8 @@ from tactile_push.devices.stream import SentenceStream
 from tactile_push.interface import (
     CLOCK,
     COMMAND,
+    CONTACT,
+    GEOMETRY_STATE,
     JOINT_STATES,
     PLACE_RELEASE,
     PLACE_STATE,
@@ -213,6 +215,34 @@ def test_published_time_stops_where_an_object_is_let_go(bench, plant):
     gone = sec + nanosec * 1e-9 - let_go
     assert 0.0 < gone < 0.02
     assert pose.pose.position.y == pytest.approx(0.0135 + 0.02375 - 0.005 * gone, abs=1e-9)
+
+
+def test_a_reading_is_sent_again_if_it_was_refused_and_not_while_it_may_be_late(
+    bench, plant, monkeypatch
+):
+    monkeypatch.setattr('tactile_push.nodes.ros.plant.LOST', math.inf)
+    node = plant(publish_clock=True)
+    bench.hear(Clock, CLOCK)
+    judged = bench.publisher(JointState, GEOMETRY_STATE)
+    contacts, clocks = bench.publisher(PoseStamped, CONTACT), bench.heard[CLOCK]
+    bench.until(lambda: clocks)
+    contact = PoseStamped()
+    contact.header.stamp = clocks[-1].clock
+    contacts.publish(contact)
+    bench.until(lambda: node._pace.contact_overdue)
+
+    def wait():
+        """Wait until the time that stands was published some times more."""
+        seen = len(clocks)
+        bench.until(lambda: len(clocks) > seen + 5)
+        return node._sequence
+
+    sent = wait()
+    assert wait() == sent
+    judged.publish(JointState(name=['refusal'], position=[1.0]))
+    bench.until(lambda: node._sequence == sent + 1)
+    judged.publish(JointState(name=['refusal'], position=[0.0]))  # its contact is on its way
+    assert wait() == sent + 1
 
 
 def test_published_time_grows_by_the_sensors_period(bench, plant):
