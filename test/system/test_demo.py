@@ -120,20 +120,25 @@ def _estimated(bag: Path) -> list[dict[str, Any]]:
 
 
 @pytest.mark.parametrize(
-    ('stop_signal', 'status'), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
+    ('stop_signal', 'status', 'what', 'bag'),
+    [
+        (signal.SIGINT, 130, (), 'block'),
+        (signal.SIGTERM, 143, ('--place',), 'placed'),
+        (signal.SIGHUP, 129, (), 'block'),
+    ],
 )
 def test_interrupted_demo_ends_in_silence_and_leaves_no_process(
-    tmp_path: Path, stop_signal: signal.Signals, status: int
+    tmp_path: Path, stop_signal: signal.Signals, status: int, what: tuple[str, ...], bag: str
 ):
     demo = subprocess.Popen(
-        [*COMMAND, '-o', str(tmp_path)],
+        [*COMMAND, *what, '-o', str(tmp_path)],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
         # A shell's background job hands down that it ignores SIGINT.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
-    while not (tmp_path / 'block').exists():  # made by the recording process
+    while not (tmp_path / bag).exists():  # made by the recording process
         assert demo.poll() is None
         time.sleep(0.01)
     descendants = _descendants(demo.pid)
