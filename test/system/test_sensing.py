@@ -158,14 +158,19 @@ def test_another_object_is_said_and_no_pose_is_told(sensing: Sensing, rig: Rig, 
         lambda: sensing.said('nothing known', DiagnosticStatus.ERROR), 'the contradiction'
     )
     why = next(r.message for r in sensing.reports() if r.level == DiagnosticStatus.ERROR)
-    contradicted = [s for s in sensing.states if field(s, 'contradiction') > 0]
-    assert CONTRADICTIONS[int(field(contradicted[0], 'contradiction'))] in why
-    for state in contradicted:
+
+    def contradicted() -> list[JointState]:
+        return [s for s in sensing.states if field(s, 'contradiction') > 0]
+
+    observer.wait_for(contradicted, 'a state that tells the contradiction')
+    states = contradicted()
+    assert CONTRADICTIONS[int(field(states[0], 'contradiction'))] in why
+    for state in states:
         assert math.isnan(field(state, 'd'))
         assert field(state, 'd_upper') - field(state, 'd_lower') > 0.045
     told = [seconds(m) for m in sensing.poses]
     assert told
-    readings = [seconds(s) - field(s, 'age') for s in contradicted]
+    readings = [seconds(s) - field(s, 'age') for s in states]
     assert not any(abs(read - pose) < 1e-4 for read in readings for pose in told)
 
 
@@ -215,6 +220,7 @@ def test_sensor_whose_clock_is_ahead_is_heard_as_the_controller_hears_it(
     plant = {**device, 'sensor_noise': NOISE, 'publish_clock': True}
     in_time = ('-r', 'contact:=contact_in_time')
     nodes.start('push_controller', simulated, **block)
+    observer.wait_for(lambda: ahead.get_subscription_count() >= 2, 'who hears what is passed on')
     nodes.start('sim_plant', plant, **block, arguments=in_time)
     nodes.start('sensor_driver', device | simulated)
     nodes.start('contact_geometry', simulated, **block, arguments=in_time)
