@@ -16,9 +16,9 @@ INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --ed
 # Tests of real nodes and messages, which unit tests are not.
 GRAPH := test/faults test/fuzzing test/hostile test/nodes test/playing test/recording \
   test/soaking test/system test/testing
-# Three processes on two cores: while some wait for nodes the others compute. A file's tests share
+# Four processes on two cores: while some wait for nodes the others compute. A file's tests share
 # what was started for them, so each process begins with its part of the files.
-PYTEST := $(BIN)/python -m pytest --numprocesses 3 --dist worksteal
+PYTEST := $(BIN)/python -m pytest --numprocesses 4 --dist worksteal
 
 # Python keeps its byte code, whatever the user has set: the tests start hundreds of processes.
 unexport PYTHONDONTWRITEBYTECODE

@@ -52,7 +52,7 @@ def plot_placed(ways: Sequence[PlacedWay], files: Sequence[Path]) -> None:
     for axis, way in zip(panels, ways, strict=True):
         _draw(axis, way)
     panels[-1].set_xlabel('along the belt [mm]')
-    panels[0].legend(loc='lower right', fontsize='small', ncols=2)
+    figure.legend(*panels[0].get_legend_handles_labels(), loc='outside lower center', ncols=4)
     for file in files:
         figure.savefig(file, dpi=160)
 
