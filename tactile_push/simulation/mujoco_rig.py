@@ -88,8 +88,9 @@ class MujocoRig:
         links = config.finger
         # The knuckle points across the belt, the pole along it.
         self._home = links.forward(math.pi - links.mount_angle, -math.pi / 2.0)
-        self._commands = DelayLine(0.0)
-        self._wanted = 0.0  # velocity that the servos are asked for now [m/s]
+        self._commands: DelayLine[tuple[float, ...]] = DelayLine((0.0, 0.0))
+        self._wanted = 0.0, 0.0  # velocities that the servos are asked for now [m/s]
+        self._line = self._home.y  # on which they hold the disk's centre [m]
         self.time = 0.0  #: how long it has been in motion [s]
         self.v_y = 0.0  #: the belt's speed at the end of the last step [m/s]
         self.lifted = False  #: whether the finger is lifted off the object
@@ -118,7 +119,7 @@ class MujocoRig:
         q[LINKS] = finger.inverse(self._home.x, self._home.y)
         if not self.config.tip_turns:
             q[WRIST] = math.pi / 2.0 - pole_angle(finger.mount_angle, q[LINKS])
-        self._simulate(self._across(0.0), SETTLING, belt_running=False)
+        self._simulate(self._towards(0.0, 0.0), SETTLING, belt_running=False)
         q[BASE] = FIRST_DENT / math.cos(self.config.theta)
         self._data.qvel[:] = 0.0
         mujoco.mj_forward(self._model, self._data)
@@ -272,7 +273,9 @@ class MujocoRig:
             return NO_CONTACT
         return reading_of_contact(self.theta, self.psi, self.normal_force) or NO_CONTACT
 
-    def step(self, v_x: float, duration: float, belt_running: bool = True) -> None:
+    def step(
+        self, v_x: float, duration: float, belt_running: bool = True, v_along: float = 0.0
+    ) -> None:
         """Let the finger and the belt move for a while.
 
         Parameters
@@ -283,20 +286,26 @@ class MujocoRig:
             How long [s].
         belt_running : bool, optional
             Whether the belt moves.
+        v_along : float, optional
+            Velocity of the finger along the belt, against its motion [m/s], as commanded.
         """
         self.at_workspace_limit = False
         servo = self.faults.servo
-        for arrived, length in self._commands.arriving(v_x, self.time, duration, servo.delay):
-            command = quantised(arrived, servo.velocity_quantum)
-            self._simulate(self._across(command), length, belt_running)
+        commands = v_x, v_along
+        for arrived, length in self._commands.arriving(commands, self.time, duration, servo.delay):
+            command = (quantised(one, servo.velocity_quantum) for one in arrived)
+            self._simulate(self._towards(*command), length, belt_running)
         self._look()
 
-    def _across(self, command: float) -> Callable[[float], tuple[float, ...]]:
-        """Return what asks the servos, a step [s] after the other, for a velocity across [m/s]."""
+    def _towards(self, across: float, along: float) -> Callable[[float], tuple[float, ...]]:
+        """Return what asks the servos, a step [s] after the other, for velocities [m/s]."""
 
         def ask(step: float) -> tuple[float, ...]:
-            self._wanted = command + self._behind(step) * (self._wanted - command)
-            return self._joint_velocities(self._within_limits(self._wanted, step))
+            behind, (v_x, v_along) = self._behind(step), self._wanted
+            v_x, v_along = across + behind * (v_x - across), along + behind * (v_along - along)
+            self._wanted = v_x, v_along = self._within_limits(v_x, v_along, step)
+            self._line += v_along * step
+            return self._joint_velocities(v_x, v_along)
 
         return ask
 
@@ -326,24 +335,23 @@ class MujocoRig:
             mujoco.mj_step(self._model, data)
             self.time += step
 
-    def _within_limits(self, v_x: float, step: float) -> float:
-        """Return the velocity, or 0 where the finger can go no further."""
-        x = self._links.x
+    def _within_limits(self, v_x: float, v_along: float, step: float) -> tuple[float, float]:
+        """Return the velocities, or 0 where the finger can go no further."""
+        x, line = self._links.x, self._line + v_along * step
         inside = self.faults.workspace.time_inside(x, v_x, step) == step
         try:
-            self.config.finger.inverse(x + math.copysign(REACH, v_x), self._home.y)
+            self.config.finger.inverse(x + math.copysign(REACH, v_x), line)
         except OutOfReachError:
             inside = False
-        if inside or v_x == 0.0:
-            return v_x
+        if inside or v_x == v_along == 0.0:
+            return v_x, v_along
         self.at_workspace_limit = True
-        self._wanted = 0.0
-        return 0.0
+        return 0.0, 0.0
 
-    def _joint_velocities(self, v_x: float) -> tuple[float, ...]:
-        """Return what moves the point across the belt, and holds the disk's centre along it."""
+    def _joint_velocities(self, v_x: float, v_along: float) -> tuple[float, ...]:
+        """Return what moves the point across the belt, and keeps the disk's centre on its line."""
         (x, y), (distal_x, distal_y) = self._levers
-        v_y = HOLD * (self._home.y - self._links.y)
+        v_y = v_along + HOLD * (self._line - self._links.y)
         det = distal_y * x - y * distal_x
         links = (v_x * distal_x + v_y * distal_y) / det, -(v_x * x + v_y * y) / det
         return self._with_wrist(links)
@@ -358,8 +366,9 @@ class MujocoRig:
         """Take the contact from MuJoCo's list."""
         data = self._data
         v_x = self.v_x
-        if self.v_y > 0.0 or abs(v_x) > self._slow:
-            self.phi = math.atan2(self.v_y, v_x)
+        v_y = self.v_y + self._wanted[1]
+        if v_y > 0.0 or abs(v_x) > self._slow:
+            self.phi = math.atan2(v_y, v_x)
         found = np.flatnonzero((data.contact.geom == self._touch).all(axis=1))
         self.touching = len(found) > 0
         if not self.touching:

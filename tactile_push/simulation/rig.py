@@ -169,12 +169,13 @@ class Rig:
         self.faults = faults
         self._body = config.body
         self._tip = config.tip
-        self._commands = DelayLine(0.0)
+        self._commands: DelayLine[tuple[float, ...]] = DelayLine((0.0, 0.0))
         self.time = 0.0  #: how long it has been in motion [s]
         self.v_x = 0.0  #: the finger's velocity across the belt at the end of the last step [m/s]
+        self.v_along = 0.0  #: its own one along the belt, against the belt's motion [m/s]
         self.v_y = 0.0  #: the belt's speed at the end of the last step [m/s]
         self.finger_x = 0.0  #: centre of the finger's disk on the belt, from its start [m]
-        self.finger_y = 0.0  #: the same along the belt, where the finger moves at +v_y [m]
+        self.along = 0.0  #: how far it has moved along the belt by itself, from its line [m]
         self.belt_travel = 0.0  #: how far the belt has moved [m]
         self.psi = math.pi / 2.0  #: angle of the finger tip's pole in `finger_base` [rad]
         self.lifted = False  #: whether the finger is lifted off the object
@@ -209,6 +210,11 @@ class Rig:
         self.lifted, self.touching = False, True
         self.sigma, self._slid = self.config.sigma, None
         self.object_pose = self._first_pose()
+
+    @property
+    def finger_y(self) -> float:
+        """Centre of the finger's disk on the belt along it, where it moves at +v_y [m]."""
+        return self.belt_travel + self.along
 
     @property
     def theta(self) -> float:
@@ -257,8 +263,7 @@ class Rig:
     @property
     def finger_pose(self) -> FingerPose:
         """Pose of the finger tip in `finger_base`."""
-        off_line = self.finger_y - self.belt_travel
-        return FingerPose(self._tip.x + self.finger_x, self._tip.y + off_line, self.psi)
+        return FingerPose(self._tip.x + self.finger_x, self._tip.y + self.along, self.psi)
 
     @property
     def object_in_finger_disk(self) -> Pose:
@@ -307,7 +312,9 @@ class Rig:
             return NO_CONTACT
         return reading_of_contact(self.theta, self.psi) or NO_CONTACT
 
-    def step(self, v_x: float, duration: float, belt_running: bool = True) -> None:
+    def step(
+        self, v_x: float, duration: float, belt_running: bool = True, v_along: float = 0.0
+    ) -> None:
         """Let the finger and the belt move for a while.
 
         Parameters
@@ -318,19 +325,26 @@ class Rig:
             How long [s].
         belt_running : bool, optional
             Whether the belt moves.
+        v_along : float, optional
+            Velocity of the finger along the belt, against its motion [m/s], as commanded.
         """
         self.at_workspace_limit = False
         if duration == 0.0:
             return
         servo = self.faults.servo
-        for arrived, left in self._commands.arriving(v_x, self.time, duration, servo.delay):
-            command = quantised(arrived, servo.velocity_quantum)
+        commands = v_x, v_along
+        for arrived, left in self._commands.arriving(commands, self.time, duration, servo.delay):
+            across, along = (quantised(one, servo.velocity_quantum) for one in arrived)
             while True:
-                even = self._even_time(command, duration, belt_running)
-                longest = min(left, even)
-                elapsed, mean, after = lagged(self.v_x, command, servo.time_constant, longest)
+                longest = min(left, self._even_time(across, duration, belt_running))
+                # Both for as long as both are nearly straight.
+                longest, _, _ = lagged(self.v_along, along, servo.time_constant, longest)
+                elapsed, mean, after = lagged(self.v_x, across, servo.time_constant, longest)
+                _, mean_along, self.v_along = lagged(
+                    self.v_along, along, servo.time_constant, elapsed
+                )
                 self.v_x = after
-                self._move_within_limits(mean, elapsed, belt_running)
+                self._move_within_limits(mean, mean_along, elapsed, belt_running)
                 if elapsed >= left:
                     break
                 left -= elapsed
@@ -346,33 +360,40 @@ class Rig:
             even = min(even, duration / math.ceil(min(across * duration / EVEN_TURN, MOST_TURNS)))
         return even
 
-    def _move_within_limits(self, v_x: float, duration: float, belt_running: bool) -> None:
+    def _move_within_limits(
+        self, v_x: float, v_along: float, duration: float, belt_running: bool
+    ) -> None:
         """Move evenly, and stop the finger where it can go no further."""
         x = self._tip.x + self.finger_x
-        v_centre, psi = self._follow(v_x, duration)
+        v_centre, psi = self._follow(v_x, v_along, duration)
         inside = 0.0
         if not math.isnan(psi):
             inside = self.faults.workspace.time_inside(x, v_centre, duration)
         if inside > 0.0:
             if inside < duration:
-                psi = self._psi(x + v_centre * inside)
-            self._move(v_centre, psi, inside, belt_running)
+                psi = self._psi(x + v_centre * inside, v_along * inside)
+            self._move(v_centre, psi, inside, belt_running, v_along)
         if inside < duration:
             self.at_workspace_limit = True
-            self.v_x = 0.0
+            self.v_x = self.v_along = 0.0
             self._move(0.0, self.psi, duration - inside, belt_running)
 
-    def _follow(self, v_x: float, duration: float) -> tuple[float, float]:
-        """Return the mean velocity of the disk's centre and psi at the end; NaN out of reach."""
+    def _follow(self, v_x: float, v_along: float, duration: float) -> tuple[float, float]:
+        """Return the mean velocity of the disk's centre and psi at the end; NaN out of reach.
+
+        While the finger moves along the belt it is the disk's centre that goes across.
+        """
         x, way = self._tip.x + self.finger_x, v_x * duration
-        if self._tip.point == CENTRE or not self.config.tip_turns:
-            return v_x, self._psi(x + way)
-        after, psi = move_tip(self._tip, x, self.psi, way, self.theta, self.config.radius)
+        if self._tip.point == CENTRE or not self.config.tip_turns or v_along != 0.0:
+            return v_x, self._psi(x + way, v_along * duration)
+        tip = self._tip._replace(y=self._tip.y + self.along)
+        after, psi = move_tip(tip, x, self.psi, way, self.theta, self.config.radius)
         return (after - x) / duration, psi
 
-    def _psi(self, x: float) -> float:
-        """Return psi with the disk's centre at x; NaN out of reach."""
-        knuckle, distal = link_angles(x, self._tip.y, self._tip.a, self._tip.b)
+    def _psi(self, x: float, along: float = 0.0) -> float:
+        """Return psi with the disk's centre at x, and farther along; NaN out of reach."""
+        y = self._tip.y + self.along + along
+        knuckle, distal = link_angles(x, y, self._tip.a, self._tip.b)
         return knuckle + distal if self.config.tip_turns or math.isnan(distal) else self.psi
 
     def _move(
@@ -384,16 +405,15 @@ class Rig:
             belt_speed = self.faults.belt.mean_speed(self.config.belt_speed, self.time, duration)
         v_y = belt_speed + v_along
         self.time += duration
-        self.belt_travel += belt_speed * duration
         if v_x == v_y == 0.0:
             self.mode = FREE
-            self.psi = psi
-            return
-        self.phi = math.atan2(v_y, v_x)
-        if not self.lifted:
-            self._push(v_x, v_y, (psi - self.psi) / duration, duration)
+        else:
+            self.phi = math.atan2(v_y, v_x)
+            if not self.lifted:
+                self._push(v_x, v_y, (psi - self.psi) / duration, duration)
+        self.belt_travel += belt_speed * duration
         self.finger_x += v_x * duration
-        self.finger_y += v_y * duration
+        self.along += v_along * duration
         self.psi = psi
 
     def _push(self, v_x: float, v_y: float, turning: float, duration: float) -> None:

@@ -286,3 +286,23 @@ def test_an_outline_of_arcs_is_refused():
     ellipse = Outline.ellipse(0.05, 0.03)
     with pytest.raises(ValueError, match='outline: expected a polygon or a circle'):
         MujocoRig(config(outline=ellipse, support=Support.rim(ellipse), start=(0.0, None)), PHYSICS)
+
+
+def test_a_finger_that_goes_back_faster_than_the_belt_touches_elsewhere():
+    theta = math.radians(17.0)
+    rig = MujocoRig(config(start=(theta, 0.006)), PHYSICS)
+    rig.step(0.0, 0.8, v_along=-0.02)
+    before, parted = rig.object_pose, (rig.touching, rig.reading().in_contact)
+    rig.step(-0.012, 1.0)
+    assert parted == (False, False)
+    assert tuple(rig.object_pose) == pytest.approx(tuple(before), abs=1e-6)
+    assert rig.finger_pose.y == pytest.approx(0.08 - 0.016, abs=1e-4)
+    waited = 0
+    while not rig.touching and waited < 20:
+        rig.step(0.0, STEP)
+        waited += 1
+    # It has gone back by 16 mm, the edge is nearer by 12 mm tan(theta), and the belt brings 5 mm/s.
+    expected = (0.016 - 0.012 * math.tan(theta)) / 0.005 - 1.8
+    assert STEP * waited == pytest.approx(expected, abs=STEP)
+    assert rig.d == pytest.approx(0.006 - 0.012 / math.cos(theta), abs=2e-4)
+    assert rig.theta == pytest.approx(theta, abs=math.radians(1.0))

@@ -20,6 +20,8 @@ from tactile_push.mechanics import (
     Support,
 )
 from tactile_push.simulation import Rig, RigConfig, paper_block, paper_disk
+from tactile_push.simulation.faults import Faults
+from tactile_push.simulation.servo import Servo
 from tactile_push.tactile import PlanarFinger, contact_of_reading
 
 PROPERTY = settings(derandomize=True, deadline=None, max_examples=40)
@@ -1060,3 +1062,45 @@ def test_config_takes_every_friction_and_both_ends_of_the_edge():
         assert RigConfig(**{**GOOD, 'mu_c': mu_c}).mu_c == mu_c
     for d in (0.025, -0.025):
         assert RigConfig(**{**GOOD, 'd': d}).d == d
+
+
+@pytest.mark.parametrize('theta', [-0.5, 0.0, 0.3])
+def test_a_finger_that_goes_back_faster_than_the_belt_leaves_the_object_and_meets_it_again(theta):
+    rig = Rig(paper_block(theta, 0.01))
+    before, pose = rig.object_pose, rig.finger_pose
+    rig.step(0.0, 1.0, v_along=-0.02)
+    assert not rig.touching
+    assert not rig.reading().in_contact
+    assert rig.gap == pytest.approx((0.02 - V_Y) * math.cos(theta), abs=1e-9)
+    assert (rig.finger_x, rig.along) == pytest.approx((0.0, -0.02))
+    rig.step(-0.015, 1.0)
+    there = rig.finger_pose
+    assert (there.x, there.y) == pytest.approx((pose.x - 0.015, pose.y - 0.02))
+    assert rig.object_pose == before  # it lies on the belt
+    # The edge comes nearer at the belt's speed, and is farther or nearer aside.
+    left = (0.02 - 2.0 * V_Y - 0.015 * math.tan(theta)) / V_Y
+    rig.step(0.0, left - 1e-3)
+    assert not rig.touching
+    rig.step(0.0, 2e-3)
+    assert rig.touching
+    assert rig.reading().in_contact
+    assert rig.d == pytest.approx(0.01 - 0.015 / math.cos(theta), abs=1e-5)
+    assert rig.theta == pytest.approx(theta, abs=1e-3)
+
+
+def test_the_finger_follows_its_command_along_the_belt_with_the_same_lag():
+    rig = Rig(paper_block(), Faults(servo=Servo(time_constant=0.1, delay=0.05)))
+    rig.step(0.0, 0.35, v_along=-0.02)
+    assert rig.v_along == pytest.approx(-0.02 * (1.0 - math.exp(-3.0)))
+    assert rig.along == pytest.approx(-0.02 * (0.3 - 0.1 * (1.0 - math.exp(-3.0))))
+    assert rig.v_x == 0.0
+
+
+def test_a_tip_points_where_its_links_bring_it_on_another_line():
+    links = PlanarFinger(0.06, 0.08, math.pi / 2.0)
+    rig = Rig(RigConfig(paper_block().slider, math.inf, 0.0, 0.0, finger=links))
+    rig.step(0.004, 1.0, v_along=-0.02)
+    proximal, distal = rig.joints
+    assert rig.psi == pytest.approx(math.pi / 2.0 + proximal + distal, abs=1e-12)
+    there = links.forward(proximal, distal)
+    assert (there.x, there.y) == pytest.approx((-0.06 + 0.004, 0.08 - 0.02))
