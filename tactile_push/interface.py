@@ -293,6 +293,8 @@ TOPICS = {
                 Field('finger_age', 's', 'age of finger_x and psi'),
                 Field('psi', 'rad', 'angle of the finger tip; 90° is straight ahead'),
                 Field('trim', 'rad', 'by how much steadying has moved theta_desired'),
+                Field('v_y', 'm/s', 'commanded velocity along the belt, against its motion'),
+                Field('apart', '', '1 while the finger is off the object on purpose'),
             ),
         ),
         Topic(OBJECT_POSE, UNCERTAIN_POSE_TYPE, (ACTIVE_SENSING,), (LIVE_PAGE,),

@@ -81,6 +81,9 @@ class PushLaw:
         self.phi_max = phi_max
         self.trim = 0.0  # added to theta_desired [rad], see `Steadying`
         self.phi = AHEAD
+        #: Velocity of the finger across and along the belt in place of a push, while it is off the
+        #: object on purpose [m/s]; law (18) never is. It is what the finger gets, as `phi` is.
+        self.away: tuple[float, float] | None = None
         self._theta_before: float | None = None
 
     def reset(self, phi: float = AHEAD) -> None:
@@ -93,6 +96,7 @@ class PushLaw:
             at rest pushes.
         """
         self.phi = min(max(phi, self.phi_min), self.phi_max)
+        self.away = None
         self._theta_before = None
 
     def update(self, theta: float) -> float:

@@ -24,6 +24,8 @@ class Limits:
     max_acceleration: float = 0.05  #: bound on the change of v_x [m/s^2]; a stop is not bounded
     workspace_min: float = -0.105  #: least x of the finger's disk in `finger_base` [m]
     workspace_max: float = 0.105  #: greatest x of the finger's disk in `finger_base` [m]
+    #: how far the finger may go with the belt, from where it is at first [m]; 0 if it cannot
+    retreat_max: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ('contact_timeout', 'joint_state_timeout', 'max_speed', 'max_acceleration'):
@@ -31,6 +33,8 @@ class Limits:
                 raise ValueError(f'{name}: expected a positive number, got {getattr(self, name)}')
         if not self.max_ticks_lost >= 0:
             raise ValueError(f'max_ticks_lost: expected 0 or more, got {self.max_ticks_lost}')
+        if not self.retreat_max >= 0.0:
+            raise ValueError(f'retreat_max: expected 0 or more [m], got {self.retreat_max}')
         if not self.workspace_min < self.workspace_max:
             raise ValueError(
                 'workspace_min: expected less than workspace_max, '
@@ -48,7 +52,7 @@ class Limits:
         Returns
         -------
         float
-            v_x [m/s]; `wanted` itself, to the bit, where no bound is met.
+            The velocity [m/s]; `wanted` itself, to the bit, where no bound is met.
         """
         change = self.max_acceleration * period
         bounded = min(max(wanted, -self.max_speed), self.max_speed)

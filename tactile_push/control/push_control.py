@@ -88,7 +88,8 @@ class PushControl:
         """
         self.state = WAITING
         self._reason = NO_REASON
-        self._v_x = 0.0
+        self._v_x = self._v_y = 0.0
+        self._along = 0.0  # way of the finger along the belt, as commanded [m]
         self._limited = False
         self._ticks = 0
         self._ticks_lost = 0
@@ -249,16 +250,23 @@ class PushControl:
         if felt:
             if self._interrupted:  # the last reading is too long ago to differ from
                 self._interrupted = False
-                self.law.reset()
+                if self.law.away is None:
+                    self.law.reset()
             self._steady()
             self.law.update(self._contact.value)
         else:
             self.law.go_on()
-        wanted = finger_velocity(self.law.phi, self.belt_speed)
+        away = self.law.away
+        wanted, along = away or (finger_velocity(self.law.phi, self.belt_speed), 0.0)
         bounded = limits.velocity(wanted, self._v_x, self.period)
         self._v_x = limits.inward(bounded, self._finger.value)
-        self._limited = bounded != wanted
-        if self._v_x != wanted:
+        self._v_y = limits.velocity(along, self._v_y, self.period)
+        if self._v_y < 0.0 and self._along + self._v_y * self.period < -limits.retreat_max:
+            self._v_y = 0.0
+        self._limited = bounded != wanted or self._v_y != along
+        if away is not None:
+            self.law.away = self._v_x, self._v_y
+        elif self._v_x != wanted:
             # What the finger does is what the law goes on from: phi(k-1) of (18).
             self.law.phi = motion_angle(self._v_x, self.belt_speed)
         stays = self._reason == WORKSPACE_LIMIT and not felt
@@ -290,7 +298,8 @@ class PushControl:
             return self.law.rests
         if abs(now - self._implausible_at) <= limits.contact_timeout:
             return IMPLAUSIBLE_CONTACT
-        if not abs(now - self._contact.since) <= limits.contact_timeout:
+        silent = not abs(now - self._contact.since) <= limits.contact_timeout
+        if silent and self.law.away is None:
             return CONTACT_SILENT
         # Not even a new start lets go of a finger that could be watched and cannot be any more.
         known = abs(now - self._finger.since) <= limits.joint_state_timeout
@@ -307,7 +316,7 @@ class PushControl:
         """Hold the finger still; the law will start over."""
         self.law.reset()
         self._end_steadying()
-        self._v_x = 0.0
+        self._v_x = self._v_y = 0.0
         self._limited = False
         self._reason = reason
         if self.state != INACTIVE:
@@ -331,6 +340,7 @@ class PushControl:
         if jumped:
             self.notice_clock_jump(now)
         if passed > 0.0:
+            self._along += self._v_y * passed
             self.law.pass_time(passed)
             lost = max(0, round(passed / self.period) - 1)
             self._ticks_lost += lost
@@ -371,4 +381,6 @@ class PushControl:
             now - self._finger.stamp if self._finger.known else math.nan,
             self._pole.value,
             self.law.trim,
+            self._v_y,
+            self.law.away is not None,
         )

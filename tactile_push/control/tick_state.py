@@ -48,6 +48,11 @@ class Tick:
         Angle of the finger tip's pole when the finger was there [rad]; NaN if it is not known.
     trim : float
         By how much steadying has moved theta_d [rad].
+    v_y : float
+        Commanded velocity of the finger along the belt, against its motion [m/s]; 0 while it
+        pushes.
+    apart : bool
+        Whether the finger is off the object on purpose from then on, or about to leave it.
     """
 
     state: str
@@ -65,6 +70,8 @@ class Tick:
     finger_age: float
     psi: float = math.nan
     trim: float = 0.0
+    v_y: float = 0.0
+    apart: bool = False
 
     def x_at_reading(self, before: float) -> float:
         """Return where the finger was at the reading [m]; NaN if the joints do not tell.
@@ -123,6 +130,8 @@ def tick_values(tick: Tick, law: PushLaw) -> dict[str, float]:
         'finger_age': tick.finger_age,
         'psi': tick.psi,
         'trim': tick.trim,
+        'v_y': tick.v_y,
+        'apart': float(tick.apart),
     }
 
 
@@ -132,8 +141,8 @@ def tick_of(values: Mapping[str, float]) -> Tick:
     Parameters
     ----------
     values : mapping of str to float
-        The numbers by name. `elapsed`, `finger_age`, `psi` and `trim` may be missing, as in older
-        recordings. Without `psi` the tip is taken to point straight ahead.
+        The numbers by name. Those from `elapsed` on may be missing, as in older recordings. Without
+        `psi` the tip is taken to point straight ahead.
 
     Returns
     -------
@@ -162,6 +171,8 @@ def tick_of(values: Mapping[str, float]) -> Tick:
             finger_age=values.get('finger_age', math.nan),
             psi=values.get('psi', math.pi / 2.0),
             trim=values.get('trim', 0.0),
+            v_y=values.get('v_y', 0.0),
+            apart=bool(values.get('apart', 0.0)),
         )
     except (KeyError, IndexError, ValueError, OverflowError) as error:
         raise ValueError(f'no control period: {error}') from None

@@ -22,6 +22,7 @@ TIP_UNKNOWN = 'direction of the finger tip unknown'
 JOINTS_DOUBTED = 'the joints tell of another motion than was commanded'
 
 SAME_STAMP = 1e-6  # in which two stamps are the same [s]
+TOUCHING = 2.0  # control periods of pushing without a reading at two ends of a contact, at the most
 FASTEST = 1.0  # a faster command counts as an unknown motion [m/s]
 
 
@@ -47,6 +48,11 @@ class ActiveSensing:
     The joints tell where the finger is, too. A finger that does not quite follow its commands is
     believed (`JointWay`). If the joints tell of a quite different motion, they tell no direction of
     the tip either: the readings are taken for ones without it until the two agree again.
+
+    A tick tells, too, when the finger is `apart`: it has left the object on purpose, or is about
+    to. Then readings are left out and nothing is forgotten. The first reading after that is of
+    another contact on the same edge, at the finger's way from the last one. If there is none in the
+    tick in which the finger is not apart any more, everything is forgotten.
 
     It has no clock: the same ticks in the same order give the same estimates.
 
@@ -111,6 +117,7 @@ class ActiveSensing:
         self._seen = math.nan  # the first tick that had it [s]
         self._v_x = math.nan  # from the last tick on
         self._theta = self._psi = math.nan  # at the last reading [rad]
+        self._apart = False  # whether the finger was off the object after the last tick
         self.readings = 0
         self.took = False
         self.forgot = ''
@@ -130,6 +137,7 @@ class ActiveSensing:
         v_x: float,
         psi: float = math.pi / 2.0,
         x: float = math.nan,
+        apart: bool = False,
     ) -> ObjectEstimate:
         """Take a tick.
 
@@ -149,6 +157,8 @@ class ActiveSensing:
             By default it does not turn.
         x : float, optional
             Where the joints say that the finger is at that moment [m]; NaN if it is not known.
+        apart : bool, optional
+            Whether the finger is off the object on purpose from the tick on, or about to leave it.
 
         Returns
         -------
@@ -164,32 +174,44 @@ class ActiveSensing:
         is_new = not read <= self._read + SAME_STAMP
         untold = math.isnan(psi - self._psi if self.readings else psi)
         self.blind = BLIND if touches and is_new and untold else ''
-        self.forgot = self._reason_to_forget(stamp, touches)
-        if not self.forgot and self.blind and self.readings and read - self._read > self.timeout:
+        was_apart, self._apart = self._apart and self.readings > 0, apart
+        left_out = was_apart and apart
+        touched = touches and (not was_apart or (is_new and not self.blind))
+        self.forgot = self._reason_to_forget(stamp, left_out or touched)
+        too_long = read - self._read > self.timeout and not left_out
+        if not self.forgot and self.blind and self.readings and too_long:
             self.forgot = TIP_UNKNOWN
         if self.forgot:
             self._estimator.reset()
             self.readings = 0
             self._read = math.nan
         before = 0.0 if math.isnan(self._v_x) else self._v_x
-        self._ticked, self._v_x = stamp, v_x if abs(v_x) <= FASTEST else math.nan
+        ticked, self._ticked = self._ticked, stamp
+        self._v_x = v_x if abs(v_x) <= FASTEST else math.nan
         self.age = silence if touches else math.nan
         is_new |= not self.readings
-        left_out = self.blind != '' and (self.readings > 0 or self._without_psi != WIDEN)
-        self.took = touches and is_new and not left_out and not math.isnan(self._v_x)
+        left_out |= self.blind != '' and (self.readings > 0 or self._without_psi != WIDEN)
+        self.took = touched and is_new and not left_out and not math.isnan(self._v_x)
         if self.took and not self.readings:
             self._motion.reset(read, before)
             self._joints.reset(x)
         if self.took or self.readings:
             self._motion.command(stamp, self._v_x)
         if self.took:
-            return self._take(theta, psi, x, read)
+            again = was_apart and self.readings > 0
+            unfelt = TOUCHING * (stamp - ticked) * self._belt_speed if again else None
+            return self._take(theta, psi, x, read, unfelt)
         estimate = self._estimator.estimate()
         silent = self.blind and not self.readings
         return replace(estimate, contradiction=self.blind) if silent else estimate
 
-    def _take(self, theta: float, psi: float, x: float, read: float) -> ObjectEstimate:
-        """Take a reading and the push that led to it; the first one has none."""
+    def _take(
+        self, theta: float, psi: float, x: float, read: float, unfelt: float | None
+    ) -> ObjectEstimate:
+        """Take a reading and the push that led to it; the first one has none.
+
+        If it is of another contact, there is a way on which the finger may have pushed `unfelt`.
+        """
         way, duration, turned = self._motion.way(read), 0.0, 0.0
         if self.readings:
             duration = read - self._read
@@ -204,6 +226,8 @@ class ActiveSensing:
         self._theta, self._psi, self._read = theta, psi, read
         if self._joints.doubted:
             return self._take_for_the_first(theta)
+        if unfelt is not None:
+            return self._estimator.touch_again(theta, way, unfelt)
         v_x, spin = (way / duration, turned / duration) if duration else (0.0, 0.0)
         return self._estimator.push(theta, v_x, self._belt_speed, duration, spin)
 

@@ -11,7 +11,7 @@ from tactile_push.estimation import hypotheses
 from tactile_push.estimation.hypotheses import ModelErrors
 from tactile_push.estimation.mixture import hull_of_intervals
 from tactile_push.estimation.prior import Prior, spread
-from tactile_push.estimation.unknowns import THETA, D
+from tactile_push.estimation.unknowns import THETA, D, R
 from tactile_push.mechanics.compiled import Array
 from tactile_push.mechanics.resistance import Push
 
@@ -131,6 +131,24 @@ class Bank:
             self._means, self._covariances, self._log_weights, theta, self._noise**2, self._outlier
         )
         return math.log(density) + self._give_up()
+
+    def touch_again(self, way: float, turn: float) -> None:
+        """Go over to another contact on the same edge, to which the finger went by a way across.
+
+        The object lay still meanwhile. Before and after, it may have turned unseen by an angle of
+        the standard deviation `turn` [rad], with which the contact rolls.
+        """
+        theta, r = self._means[:, THETA], self._means[:, R]
+        cos = np.cos(theta)
+        slope = (way * np.sin(theta) / cos**2)[:, None]  # of the way along the edge, by theta
+        self._means[:, D] += way / cos
+        self._covariances[:, D, :] += slope * self._covariances[:, THETA, :]
+        self._covariances[:, :, D] += slope * self._covariances[:, :, THETA]
+        self._covariances[:, THETA, THETA] += turn**2
+        self._covariances[:, THETA, D] -= r * turn**2
+        self._covariances[:, D, THETA] -= r * turn**2
+        self._covariances[:, D, D] += (r * turn) ** 2
+        self._motions[:] = math.nan
 
     def _give_up(self) -> float:
         """Drop unlikely hypotheses and those off the edge; return the log of what stays on it."""

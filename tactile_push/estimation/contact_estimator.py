@@ -187,6 +187,39 @@ class ContactEstimator:
                 self._start(theta)
         return self.estimate()
 
+    def touch_again(self, theta: float, way: float, unfelt: float) -> Estimate:
+        """Take the first reading of another contact on the same edge.
+
+        The object lay still while the finger went there, so all that is known of it stays.
+
+        Parameters
+        ----------
+        theta : float
+            Reading of the edge's angle [rad].
+        way : float
+            How far the finger has gone across [m].
+        unfelt : float
+            How far it may have pushed before and after without a reading [m].
+
+        Returns
+        -------
+        Estimate
+            What is known now.
+        """
+        if self._watch is None:
+            return self.push(theta, 0.0, 0.0, 0.0)
+        if not self.contradiction:
+            turn = 0.5 / self.prior.l * unfelt  # by (11) no object turns farther
+            self._bank.touch_again(way, turn / math.sqrt(3.0))  # all less are as likely
+            if self._guaranteed is not None:
+                self._guaranteed.touch_again(way, turn, unfelt)
+            self._watch = Watch(self.noise, self.outlier, self.prior.l, theta)
+            self._recent = Recent(theta)
+            self._way = 0.0
+            self._read(theta, self._watch)
+        self._theta = theta
+        return self.estimate()
+
     @property
     def contradiction(self) -> str:
         """Why no number is to be believed; empty if data and model agree."""

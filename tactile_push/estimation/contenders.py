@@ -69,6 +69,13 @@ class Contenders:
             self._theta = theta
             self._weigh()
 
+    def touch_again(self, theta: float, way: float, unfelt: float) -> None:
+        """Take the first reading of another contact, as `ContactEstimator.touch_again` does."""
+        for i in self._alive:
+            self._latest[i] = self._estimators[i].touch_again(theta, way, unfelt)
+        self._theta = theta
+        self._weigh()
+
     def _begin(self) -> None:
         """Begin anew with all, at the last reading."""
         self._latest = list(self._before)

@@ -9,6 +9,10 @@ import numpy as np
 
 from tactile_push.estimation.cells import (
     FACES,
+    ROLLED_HIGH,
+    ROLLED_LOW,
+    THETA_HIGH,
+    THETA_LOW,
     Bounds,
     Interval,
     cut_cells,
@@ -89,6 +93,21 @@ class GuaranteedSet:
             self._count = push_cells(self._cells[: self._count], push, self._bounds)
             theta_0 = self._bounds.theta_0 + push.duration * spin
             self._bounds = self._bounds._replace(theta_0=theta_0)
+
+    def touch_again(self, way: float, turn: float, slip: float) -> None:
+        """Go over to another contact on the same edge, to which the finger went by a way across.
+
+        Before and after, the object may have turned and slipped unseen by so much [rad, m].
+        """
+        cells = self._cells[: self._count]
+        cells[:, THETA_LOW] -= turn
+        cells[:, THETA_HIGH] += turn
+        low, high = cells[:, THETA_LOW], cells[:, THETA_HIGH]
+        # Along the edge it is way / cos(theta), which is least where theta is nearest to 0.
+        nearest, farthest = np.clip(0.0, low, high), np.maximum(np.abs(low), np.abs(high))
+        ways = np.sort([way / np.cos(nearest), way / np.cos(farthest)], axis=0)
+        cells[:, ROLLED_LOW] += ways[0] - slip
+        cells[:, ROLLED_HIGH] += ways[1] + slip
 
     def read(self, theta: float) -> None:
         """Cut off what a reading of theta [rad] excludes."""

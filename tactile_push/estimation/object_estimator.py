@@ -86,6 +86,29 @@ class Estimator:
         self._contenders.push(theta, v_x, v_y, duration, spin)
         return self.estimate()
 
+    def touch_again(self, theta: float, way: float, unfelt: float) -> ObjectEstimate:
+        """Take the first reading after the finger has left the object and touched it elsewhere.
+
+        What is known of the object stays, and so does the edge that is pushed. Of a disk everything
+        is forgotten.
+
+        Parameters
+        ----------
+        theta : float
+            Reading of the pushed edge's angle [rad].
+        way : float
+            How far the finger has gone across since the last reading [m].
+        unfelt : float
+            How far it may have pushed meanwhile without a reading [m].
+
+        Returns
+        -------
+        ObjectEstimate
+            What is known now.
+        """
+        self.reset()
+        return self.push(theta, 0.0, 0.0, 0.0)
+
     def estimate(self) -> ObjectEstimate:
         """Return what is known; before any data and after a contradiction, what was known before.
 
@@ -171,6 +194,22 @@ class ObjectEstimator(Estimator):
             for place in places
         ]
         super().__init__(Contenders(estimators, together / together.sum(), noise), noise)
+
+    def touch_again(self, theta: float, way: float, unfelt: float) -> ObjectEstimate:
+        """Take the first reading of another contact, as in `Estimator`.
+
+        Parameters
+        ----------
+        theta, way, unfelt : float
+            As in `Estimator`.
+
+        Returns
+        -------
+        ObjectEstimate
+            What is known now.
+        """
+        self._contenders.touch_again(theta, way, unfelt)
+        return self.estimate()
 
     def estimate(self) -> ObjectEstimate:
         """Return what is known, as in `Estimator`.

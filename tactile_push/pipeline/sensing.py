@@ -94,7 +94,8 @@ class Sensing:
         now = self._seconds(*stamp)
         psi = self._psi(now, tick)
         x = self._x(tick) if math.isfinite(psi) else math.nan
-        estimate = sensing.tick(now, tick.theta, tick.silence, tick.known_velocity, psi, x)
+        felt = tick.theta, tick.silence
+        estimate = sensing.tick(now, *felt, tick.known_velocity, psi, x, tick.apart)
         return Sensed(
             stamp,
             sensing_values(estimate, sensing),

@@ -165,7 +165,11 @@ def control_periods(
         yield tick
         waiting = _waits(tick, push)
         for i in range(readings):
-            (move or rig.step)(tick.v_x or 0.0, period / readings, not waiting)
+            duration, v_x = period / readings, tick.v_x or 0.0
+            if move is None:
+                rig.step(v_x, duration, not waiting, tick.v_y)
+            else:
+                move(v_x, duration, not waiting)
             feel((k, i + 1))
 
 

@@ -81,7 +81,8 @@ def place(
     learned, end = 0.0, ''
     for tick in believing(rig, push, law, sensing, seed):
         watch(rig, tick)
-        if tick.state not in (PUSHING, WAITING) or tick.silence > push.limits.contact_timeout:
+        silent = tick.silence > push.limits.contact_timeout and not tick.apart
+        if tick.state not in (PUSHING, WAITING) or silent:
             end = tick.stop_reason or tick.state
             break
         if not math.isnan(law.let_go_in):

@@ -1009,3 +1009,83 @@ def test_a_clock_that_was_set_back_is_no_time():
     felt_at(running, 10.0)
     running.tick(5.0)
     assert running.law.passed == []
+
+
+class Away(PushLaw):
+    """A law that takes the finger off the object."""
+
+    def __init__(self, *wanted):
+        super().__init__(0.5, 2.0, 0.0)
+        self.wanted = list(wanted)
+
+    def go_on(self):
+        self.away = self.wanted.pop(0) if self.wanted else None
+
+    def update(self, theta):
+        self.go_on()
+        return super().update(theta)
+
+
+def away(*wanted, **limits):
+    bounds = Limits(
+        **{'contact_timeout': TIMEOUT, 'max_speed': 0.02, 'retreat_max': 0.01, **limits}
+    )
+    running = PushControl(Away(*wanted), 0.005, PERIOD, bounds)
+    running.activate(0.0)
+    running.feel(0.1, 0.0)
+    return running
+
+
+def test_a_contact_that_is_lost_on_purpose_is_no_reason_to_stop():
+    running = away(*[(0.0, 0.0)] * 9)
+    tick = ticks_until(running, 0.0, 8 * PERIOD)
+    assert tick.silence > 2.0 * TIMEOUT
+    assert (tick.state, tick.stop_reason, tick.apart) == (PUSHING, NO_REASON, True)
+    # Afterwards it is one again.
+    tick = running.tick(9 * PERIOD)
+    assert (tick.state, tick.apart) == (PUSHING, False)
+    tick = running.tick(10 * PERIOD)
+    assert (tick.state, tick.stop_reason, tick.apart) == (STOPPED, CONTACT_SILENT, False)
+
+
+def test_both_velocities_off_the_object_are_bounded_and_so_are_their_changes():
+    running = away(*[(0.05, -0.05)] * 4, max_acceleration=0.08, retreat_max=1.0)
+    ticks = [running.tick(k * PERIOD) for k in range(6)]
+    found = [(tick.v_x, tick.v_y) for tick in ticks]
+    # By 0.08 m/s^2 * 0.125 s at the most, up to 0.02 m/s.
+    assert found[:4] == [(0.01, -0.01), *[(0.02, -0.02)] * 3]
+    assert [tick.limited for tick in ticks[:4]] == [True] * 4
+    assert found[4][1] == pytest.approx(-0.01)
+    assert found[5][1] == 0.0
+    assert not any(tick.v_y for tick in [running.tick(6 * PERIOD)])
+
+
+def test_the_law_is_told_what_the_finger_gets():
+    running = away((0.05, -0.05), max_acceleration=0.08)
+    tick = running.tick(0.0)
+    assert running.law.away == (tick.v_x, tick.v_y) == (0.01, -0.01)
+
+
+@pytest.mark.parametrize('room', [0.0, 0.004])
+def test_the_finger_goes_no_farther_back_than_it_may(room):
+    running = away(*[(0.0, -0.02)] * 20, retreat_max=room, max_acceleration=1.0)
+    ticks = [running.tick(k * PERIOD) for k in range(10)]
+    gone = -sum(tick.v_y for tick in ticks) * PERIOD
+    assert gone <= room
+    assert room == 0.0 or gone > 0.0
+
+
+def test_a_stop_off_the_object_stops_both_ways():
+    running = away(*[(0.01, -0.02)] * 20)
+    running.tick(0.0)
+    running.notice_another_command()
+    tick = running.tick(PERIOD)
+    assert (tick.state, tick.stop_reason) == (STOPPED, ANOTHER_COMMAND)
+    assert (tick.v_x, tick.v_y, tick.apart) == (0.0, 0.0, False)
+
+
+def test_a_finger_whose_place_is_not_known_any_more_stops_off_the_object_too():
+    running = away(*[(0.0, -0.001)] * 20, joint_state_timeout=TIMEOUT)
+    running.locate_finger(0.0, 0.0)
+    tick = ticks_until(running, 0.0, 4 * PERIOD)
+    assert (tick.state, tick.v_y) == (STOPPED, 0.0)

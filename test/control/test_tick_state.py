@@ -23,6 +23,7 @@ from tactile_push.interface import CONTROLLER_STATE, TOPICS
 LAW = PushLaw(0.05, 5.0, -0.17)
 TICK = Tick(
     *(PUSHING, NO_REASON, 0.1, 1.5, -0.004, 0.02, True, False, -0.03, 12, 1, 0.1, 0.01, 1.6, 0.02),
+    *(-0.01, True),
 )
 
 numbers = st.floats() | st.just(math.nan)
@@ -43,6 +44,8 @@ ticks = st.builds(
     finger_age=numbers,
     psi=numbers,
     trim=numbers,
+    v_y=numbers,
+    apart=st.booleans(),
 )
 
 
@@ -54,6 +57,7 @@ def test_every_number_stands_under_its_name():
         **{'kp': 0.05, 'kd': 5.0, 'silence': 0.02, 'saturated': 1.0, 'limited': 0.0},
         **{'finger_x': -0.03, 'state': 2.0, 'stop_reason': 0.0, 'ticks': 12.0},
         **{'ticks_lost': 1.0, 'elapsed': 0.1, 'finger_age': 0.01, 'psi': 1.6, 'trim': 0.02},
+        **{'v_y': -0.01, 'apart': 1.0},
     }
 
 

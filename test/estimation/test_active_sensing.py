@@ -17,7 +17,14 @@ from tactile_push.estimation import (
     edges_of,
     sensing_values,
 )
-from tactile_push.estimation.active_sensing import JOINTS_DOUBTED, TIP_UNKNOWN
+from tactile_push.estimation.active_sensing import (
+    CONTACT_LOST,
+    JOINTS_DOUBTED,
+    MOTION_UNKNOWN,
+    TICKS_MISSING,
+    TIME_WENT_BACK,
+    TIP_UNKNOWN,
+)
 from tactile_push.estimation.contradictions import BLIND, CONTRADICTIONS, DISOBEYED
 from tactile_push.interface import SILENT, STRAIGHT, WIDEN
 from tactile_push.mechanics import CENTRE, CONTACT, POLE
@@ -32,11 +39,15 @@ class Listener:
 
     pushes: list[tuple[float, float, float, float]] = field(default_factory=list)
     spins: list[float] = field(default_factory=list)
+    touches: list[tuple[float, float, float]] = field(default_factory=list)
     resets: int = 0
 
     def push(self, theta, v_x, v_y, duration, spin):
         self.pushes.append((theta, v_x, v_y, duration))
         self.spins.append(spin)
+
+    def touch_again(self, theta, way, unfelt):
+        self.touches.append((theta, way, unfelt))
 
     def estimate(self):
         return None
@@ -385,3 +396,59 @@ def test_way_of_a_push_is_corrected_by_the_joints(sensing, listener):
         sensing.tick(0.1 * k, 0.3, 0.0, 0.001, 1.5, 0.00012 * k)
     assert listener.pushes[1][1] > 0.001
     assert listener.pushes[-1][1] == pytest.approx(0.0012, rel=1e-3)
+
+
+def apart(sensing, begin, count, v_x=0.0, theta=0.1):
+    """Tick while the finger is off the object, without a new reading."""
+    for k in range(count):
+        at = begin + k
+        sensing.tick(at * PERIOD, theta, (k + 1) * PERIOD, v_x, apart=True)
+
+
+def test_the_first_reading_after_the_finger_was_apart_is_of_another_contact(sensing, listener):
+    sensing.tick(0.0, 0.1, 0.0, 0.0)
+    sensing.tick(0.1, 0.12, 0.0, 0.002, apart=True)  # which it is about to be
+    apart(sensing, 2, 20, 0.01)
+    assert (sensing.forgot, sensing.took, sensing.readings) == ('', False, 2)
+    sensing.tick(2.2, 0.13, 0.02, 0.001)
+    assert (sensing.forgot, sensing.took, sensing.readings) == ('', True, 3)
+    # From 0.1 s on at 2 mm/s, from 0.2 s on at 10 mm/s.
+    ((theta, way, unfelt),) = listener.touches
+    assert (theta, way) == pytest.approx((0.13, 0.002 * 0.1 + 0.01 * (2.18 - 0.2)))
+    assert unfelt == pytest.approx(2.0 * 0.1 * BELT)  # two control periods, at the most
+    sensing.tick(2.3, 0.14, 0.02, 0.001)
+    assert listener.pushes[-1] == pytest.approx((0.14, 0.001 + 0.2 * 0.009, BELT, 0.1))
+    assert listener.resets == 0
+
+
+def test_what_is_felt_while_the_finger_is_apart_is_left_out(sensing, listener):
+    sensing.tick(0.0, 0.1, 0.0, 0.0, apart=True)
+    sensing.tick(0.1, 0.2, 0.0, 0.0, apart=True)
+    assert not sensing.took
+    assert len(listener.pushes) == 1
+
+
+def test_if_the_finger_is_not_apart_any_more_and_feels_nothing_all_is_forgotten(sensing):
+    sensing.tick(0.0, 0.1, 0.0, 0.0, apart=True)
+    sensing.tick(0.1, 0.1, 0.1, 0.0, apart=True)
+    sensing.tick(0.2, 0.1, 0.2, 0.0)
+    assert sensing.forgot == CONTACT_LOST
+    assert sensing.readings == 0
+
+
+@pytest.mark.parametrize(
+    ('tick', 'reason'),
+    [((3.0, 0.1, 0.01, 0.0), TICKS_MISSING), ((0.05, 0.1, 0.01, 0.0), TIME_WENT_BACK)],
+)
+def test_a_finger_that_is_apart_is_followed_without_a_gap(sensing, tick, reason):
+    sensing.tick(0.0, 0.1, 0.0, 0.0, apart=True)
+    sensing.tick(0.1, 0.1, 0.1, 0.0, apart=True)
+    sensing.tick(*tick, apart=True)
+    assert sensing.forgot == reason
+
+
+def test_a_finger_that_somebody_else_moved_while_it_was_apart_is_forgotten(sensing):
+    sensing.tick(0.0, 0.1, 0.0, 0.0, apart=True)
+    sensing.tick(0.1, 0.1, 0.1, math.nan, apart=True)
+    sensing.tick(0.2, 0.1, 0.2, 0.0, apart=True)
+    assert sensing.forgot == MOTION_UNKNOWN

@@ -127,3 +127,35 @@ def test_contacts_that_run_off_the_edge_are_counted():
 def test_liberties_that_are_none_are_refused(name, value):
     with pytest.raises(ValueError, match=name):
         Liberties(**{name: value})
+
+
+def test_another_contact_is_as_far_along_the_edge_as_the_finger_went_and_the_rest_stays():
+    one, theta, way = bank(d=(-0.02, 0.02), l_sigma=1e-3, liberties=Liberties()), 0.4, -0.006
+    one.start(theta)
+    for k in range(30):
+        one.push(0.004 * math.sin(k / 5.0), 0.005, 0.1, 0.0)
+        one.read(theta + 0.002 * k)
+    (before, spread), weights = one.moments(), one.weights
+    one.touch_again(way, 0.0)
+    after, now = one.moments()
+    others = [i for i in range(len(after)) if i != D]
+    assert after[others] == pytest.approx(before[others])
+    assert now[np.ix_(others, others)] == pytest.approx(spread[np.ix_(others, others)])
+    assert one.weights == pytest.approx(weights)
+    # (cos theta, sin theta) d is the way along the edge. Theta is known to a few thousandths.
+    assert after[D] - before[D] == pytest.approx(way / math.cos(before[THETA]), rel=1e-3)
+    slope = way * math.sin(before[THETA]) / math.cos(before[THETA]) ** 2
+    expected = spread[D, D] + 2.0 * slope * spread[D, THETA] + slope**2 * spread[THETA, THETA]
+    assert now[D, D] == pytest.approx(expected, rel=1e-3)
+
+
+def test_what_may_have_turned_unseen_is_not_known_any_more_and_has_rolled():
+    one, turn = bank(d=(-0.02, 0.02)), 0.01
+    one.start(0.0)
+    _, before = one.moments()
+    one.touch_again(0.0, turn)
+    _, after = one.moments()
+    added = after - before
+    assert added[THETA, THETA] == pytest.approx(turn**2)
+    assert added[D, THETA] == added[THETA, D] == pytest.approx(-RADIUS * turn**2)
+    assert added[D, D] == pytest.approx((RADIUS * turn) ** 2)

@@ -19,7 +19,7 @@ from support.simulated_pushes import (
     pushes,
     rig_of,
 )
-from tactile_push.estimation import ObjectEstimator, edges_of
+from tactile_push.estimation import DiskEstimator, ObjectEstimator, edges_of
 
 
 def test_before_any_data_the_finger_is_as_likely_anywhere_on_the_outline():
@@ -193,3 +193,11 @@ def test_contact_of_a_tip_that_turns_is_known_to_a_millimetre_and_a_half():
     inside, width = found_by_a_tip_that_turns(1, told=True, start=start, steps=400)
     assert np.mean(inside) >= 0.93
     assert width <= 0.0015
+
+
+def test_another_touch_of_a_disk_is_the_first_one():
+    first, again = (DiskEstimator(0.0285, NOISE) for _ in range(2))
+    for k in range(20):
+        again.push(0.1 + 0.01 * k, 0.001, BELT, PERIOD)
+    expected, found = first.push(0.3, 0.0, 0.0, 0.0), again.touch_again(0.3, 0.01, 1e-3)
+    assert (found.c, found.mu_c, found.theta) == (expected.c, expected.mu_c, expected.theta)

@@ -135,7 +135,7 @@ def test_direction_of_the_tip_is_that_at_the_moment_of_the_reading():
     class Listener:
         timeout = 0.3
 
-        def tick(self, stamp, theta, silence, v_x, psi, x):
+        def tick(self, stamp, theta, silence, v_x, psi, x, apart):
             told.append(psi)
             raise StopIteration
 

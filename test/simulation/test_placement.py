@@ -6,8 +6,11 @@ import math
 
 import pytest
 
-from tactile_push.control.placing.law import RELEASED, PlaceLaw
+from tactile_push.control import Limits
+from tactile_push.control.placing.law import PlaceLaw
 from tactile_push.control.placing.model import Goal
+from tactile_push.control.placing.regrasp import Moves
+from tactile_push.control.placing.stages import REGRASPING, RELEASED
 from tactile_push.estimation import ActiveSensing, FingerMotion, ObjectEstimator, edges_of
 from tactile_push.mechanics import Outline, Slider, Support
 from tactile_push.paper import BLOCK_CORNERS, BLOCK_DEPTH, BLOCK_EDGE
@@ -63,3 +66,65 @@ def test_four_corners_resist_turning_four_times_as_much_when_they_only_spin():
     assert found.c_squared == pytest.approx((BLOCK_EDGE**2 + BLOCK_DEPTH**2) / 8.0)
     assert found.growth == pytest.approx(3.0)
     assert pressure_of(paper_block(c=0.02).slider)[:2] == pytest.approx((4e-4, 0.0))
+
+
+MOVES, ROOM = Moves(0.02, 0.05, 0.005), 0.05
+
+
+def regrasping(theta, d, shift, belt, support=None):
+    """Return a rig and a law with two axes whose goal no push from the first contact reaches."""
+    outline = Outline.rectangle(BLOCK_EDGE, BLOCK_DEPTH)
+    slider = paper_block().slider
+    if support is not None:
+        slider = Slider.on(outline, support(outline), exact=True)
+    config = RigConfig(slider, math.inf, theta, d, tip_turns=False)
+    one = law_for(config, shift, theta, belt)
+    two = PlaceLaw(*(one.goal, belt, config.belt_speed, 0.1), lag=LAG, moves=MOVES, room=ROOM)
+    return config, one, two
+
+
+def test_a_finger_of_two_axes_places_what_sticking_excludes():
+    config, one, two = regrasping(0.35, 0.012, 0.015, 0.2)
+    faults, limits = Faults(servo=Servo(time_constant=LAG)), Limits(retreat_max=ROOM)
+    assert place(Rig(config, faults), one).stage != RELEASED
+    rig, stages = Rig(config, faults), []
+
+    def watch(rig, tick):
+        stages.append(two.stage)
+        assert tick.apart == (two.stage == REGRASPING)
+
+    found = place(rig, two, limits=limits, watch=watch)
+    assert (found.stage, found.end, two.regrasps) == (RELEASED, '', 1)
+    assert abs(found.x_error) < 2e-4
+    assert abs(found.theta_error) < math.radians(0.2)
+    assert -ROOM < rig.along < -0.002
+    assert REGRASPING in stages
+
+
+@pytest.mark.slow
+def test_what_was_learnt_before_is_known_after_the_second_touch():
+    config, _, law = regrasping(0.35, 0.012, 0.015, 0.3, Support.corners)
+    estimator = ObjectEstimator(edges_of(BLOCK_CORNERS)[:1], NOISE, l_share=0.01, radius_share=0.01)
+    sensing = ActiveSensing(estimator, FingerMotion(LAG), config.belt_speed, 0.3)
+    faults = Faults(servo=Servo(time_constant=LAG), sensor=Sensor(NOISE))
+    known = []
+
+    def watch(rig, tick):
+        now = estimator.estimate()
+        known.append((tick.apart, rig.d - now.d.mean, now.d.upper - now.d.lower, sensing.readings))
+
+    found = place(
+        Rig(config, faults),
+        law,
+        sensing=sensing,
+        limits=Limits(retreat_max=ROOM),
+        watch=watch,
+    )
+    assert (found.stage, law.regrasps) == (RELEASED, 1)
+    assert abs(found.x_error) < 1e-3
+    assert abs(found.theta_error) < math.radians(1.0)
+    last = max(k for k, one in enumerate(known) if one[0])
+    _, error, width, readings = known[last + 3]
+    assert readings > 20  # nothing was forgotten
+    assert width < 4e-3
+    assert abs(error) < width

@@ -91,7 +91,10 @@ class BelievingLaw(PushLaw):
 
     def pass_time(self, seconds: float) -> None:
         """Take note of the time since the last period [s], in which phi was in force."""
-        self._past.add(finger_velocity(self.phi, 1.0), seconds * self._belt_speed)
+        u = finger_velocity(self.phi, 1.0)
+        if self.away is not None:
+            u = self.away[0] / self._belt_speed
+        self._past.add(u, seconds * self._belt_speed)
 
     def present(self) -> tuple[Situation, Belief] | None:
         """Return where finger and object are now by what is believed; None if nothing is."""

@@ -3,6 +3,7 @@
 """The law that places: it learns where the contact is, plans, and says when to let go."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -14,19 +15,22 @@ from tactile_push.control.placing.learning import Spread, telling_command
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation, ahead
 from tactile_push.control.placing.planner import DETOUR, Plan, Planner
 from tactile_push.control.placing.reachability import Task
+from tactile_push.control.placing.regrasp import Moves, Regrasp, Touch, detour, fits, touches
 from tactile_push.control.placing.stages import (
     LEARNING,
     LETTING_GO,
     MISSED,
     NO_GOAL,
+    OBJECT_LOST,
     PLACING,
+    REGRASPING,
     RELEASED,
 )
 from tactile_push.control.states import NO_REASON, NOTHING_TO_DO
 from tactile_push.mechanics import friction_cone
 
 NOWHERE = Goal(math.nan, math.nan)  # no goal
-ACTING = (LEARNING, PLACING, LETTING_GO)
+ACTING = (LEARNING, PLACING, LETTING_GO, REGRASPING)
 KNOWN = 1e-3  # standard deviation of d below which the law commits itself [m]
 LEARNED_SHARE = 0.08  # of the belt, after which it does so anyhow; picked
 SPREADS = 1.0  # deviations of d that are kept from the edge's ends beside `D_MARGIN`
@@ -36,6 +40,9 @@ SURE, SURE_ANGLE, KEPT_BACK, KEPT_SHARE = 3.5e-4, math.radians(0.3), 0.01, 0.05
 # Belt at the end of a plan on which a turn that differs from what is believed is made up for [m],
 # the share by which it may differ though c is known, and the drift for which that is worth while.
 LAST_TURN, OWN_DOUBT, CLEAR_DRIFT = 0.02, 0.02, 0.2
+# Control periods in a row without a plan that arrives, after which another contact is looked for:
+# by then the planner has looked for all kinds of plans. And how many pass if there is none; picked.
+IN_VAIN, AGAIN = 10, 20
 LARGEST_ANGLE = math.radians(50.0)  # of theta in plans
 
 
@@ -44,7 +51,8 @@ class PlaceLaw(BelievingLaw):
 
     It takes the place of law (18) in `PushControl`. Until something is believed it pushes straight
     ahead. While d is hardly known it pushes so as to learn d. Then it plans in every control period
-    anew, from the newest belief moved on to the present, and says in which period to let go.
+    anew, from the newest belief moved on to the present, and says in which period to let go. If no
+    plan arrives and the finger can move along the belt, it touches elsewhere (`regrasp`).
 
     Parameters
     ----------
@@ -64,11 +72,17 @@ class PlaceLaw(BelievingLaw):
         Largest change of v_x [m/s^2].
     phi_min, phi_max : float, optional
         Bounds of phi [rad], alike on both sides of straight ahead.
+    moves : Moves, optional
+        How the finger gets about off the object; None if it cannot move along the belt.
+    room : float, optional
+        How far it may go back in all [m].
 
     Attributes
     ----------
     stage : str
-        One of `stages.STAGES`: `LEARNING`, `PLACING`, `LETTING_GO`, and how it ended.
+        One of `stages.STAGES`: `LEARNING`, `PLACING`, `REGRASPING`, `LETTING_GO`, and how it ended.
+    regrasps : int
+        How often the finger has left the object for the goal.
     let_go_in, tell_in : float
         When the object is free, and when to say so that it is, after the last update [s]; NaN if
         not within the period.
@@ -89,6 +103,8 @@ class PlaceLaw(BelievingLaw):
         rate: float = 0.05,
         phi_min: float = math.radians(33.0),
         phi_max: float = math.radians(147.0),
+        moves: Moves | None = None,
+        room: float = 0.0,
     ) -> None:
         super().__init__(
             *(goal.theta, belt_speed, period),
@@ -102,6 +118,9 @@ class PlaceLaw(BelievingLaw):
         self._delay = delay * belt_speed
         self._bounds = self._bounds._replace(theta_max=LARGEST_ANGLE)
         self._planner = Planner(self._bounds)
+        self._period = period
+        self._moves, self._room = moves, room
+        self._regrasp: Regrasp | None = None
         self.aim_at(goal)
 
     def aim_at(self, goal: Goal) -> None:
@@ -118,11 +137,16 @@ class PlaceLaw(BelievingLaw):
         self._aim = math.nan
         self._goes_around = False  # whether the end was missed, so that a plan is to go around
         self._kept_since = math.inf  # belt used when the end was near for the first time [m]
+        self.regrasps = 0
+        self._in_vain = 0  # periods in a row without a plan that arrives
+        self._tries: Iterator[Touch | None] | None = None
+        self._touches: list[Touch] = []  # those of the tries that lead to the goal
         self._planner.forget()
 
     def end(self, stage: str) -> None:
         """Do no more for the goal, of which this became."""
         self.stage = stage
+        self.away = None
         self.let_go_in = self.tell_in = math.nan
         self._planner.forget()
 
@@ -144,6 +168,8 @@ class PlaceLaw(BelievingLaw):
         """Forget the last reading and what was believed, as when the finger has stopped."""
         super().reset(phi)
         self._planner.forget()
+        if self.stage == REGRASPING:  # nobody brings the finger to the other contact any more
+            self.stage = LEARNING
 
     def tune(self, kp: float, kd: float, theta_desired: float) -> None:
         """Ignore the gains of law (18) and its angle: this law has a goal."""
@@ -153,7 +179,13 @@ class PlaceLaw(BelievingLaw):
         super().pass_time(seconds)
         if self.stage == LETTING_GO and self._past.way >= self._free_at:
             self.end(RELEASED)
-        if self.began and self.stage in (LEARNING, PLACING):
+        if self.stage == REGRASPING and self.away is not None:
+            assert self._regrasp is not None
+            self._regrasp.pass_time(seconds, self.away)
+            self._room += self.away[1] * seconds
+            if self._regrasp.is_late:
+                self.end(OBJECT_LOST)
+        if self.began and self.stage in (LEARNING, PLACING, REGRASPING):
             self.used += seconds * self._belt_speed
             if self.used >= self.belt:
                 self.end(MISSED)
@@ -162,6 +194,9 @@ class PlaceLaw(BelievingLaw):
         """Give the push angle of the next period, as in `PushLaw`."""
         self.began = True
         self._theta_before = theta
+        if self.stage == REGRASPING and self._regrasp is not None and self._regrasp.is_clear:
+            self.stage, self.away = PLACING, None
+            self._belief = None  # which was about the contact that is left
         self._act()
         return self.phi
 
@@ -184,6 +219,10 @@ class PlaceLaw(BelievingLaw):
         if self.stage == LETTING_GO:
             self.phi = motion_angle(self._finish(), 1.0)
             return
+        if self.stage == REGRASPING:
+            assert self._regrasp is not None
+            self.away = self._regrasp.velocity(self._period)
+            return
         present = None if self.rests else self.present()
         if present is None:
             self.phi = AHEAD
@@ -199,6 +238,8 @@ class PlaceLaw(BelievingLaw):
         if self.stage == LEARNING:
             slippery = _others(belief)[0]
             u = telling_command(now, belief.pushed, slippery, bounds, belief.spread, self._aim)
+        elif self._looks_elsewhere(now, belief):
+            u = ahead(now, belief.pushed, bounds)
         else:
             u = self._place(now, belief, bounds, self.belt - self.used)
         self.phi = motion_angle(u, 1.0) if math.isfinite(u) else AHEAD
@@ -217,7 +258,9 @@ class PlaceLaw(BelievingLaw):
         )
         if plan is not None and plan.length < KEPT_BACK + last:
             self._kept_since = min(self._kept_since, self.used)
+        self._in_vain += 1
         if plan is not None and plan.arrives:
+            self._in_vain = 0 if self._planner.takes_the_likely else self._in_vain
             self._goes_around = False
         elif plan is not None and plan.length < last and not plan.near:
             self._planner.drop()
@@ -233,6 +276,33 @@ class PlaceLaw(BelievingLaw):
             # Translating keeps what can be reached for the longest.
             return ahead(now, belief.pushed, bounds)
         return plan.command(self._piece)
+
+    def _looks_elsewhere(self, now: Situation, belief: Belief) -> bool:
+        """Look for another contact if that is due; return whether this takes the place of a plan.
+
+        It tries one contact in a period, which is what there is time for.
+        """
+        if self._moves is None or self._in_vain < IN_VAIN or belief.spread.d > KNOWN:
+            return False
+        if self._tries is None:
+            left = max(self.belt - self.used, 0.0)
+            task = Task(now, belief.pushed, self._inside(belief, 0.0), left)
+            self._tries, self._touches = touches(task, self.goal, self._moves, self._room), []
+        for touch in self._tries:
+            if touch is not None:
+                self._touches.append(touch)
+            return True
+        self._in_vain, self._tries = IN_VAIN - AGAIN, None
+        self._planner.drop()
+        for touch in sorted(self._touches, key=lambda one: one.belt):
+            way = detour(now, touch.d, self._moves)
+            if fits(way, now, self._bounds, self._room):  # from here, too
+                self._regrasp = Regrasp(way, self._moves)
+                self.stage, self.plan = REGRASPING, None
+                self.regrasps += 1
+                self.away = self._regrasp.velocity(self._period)
+                return True
+        return False
 
     def _least(self, spread: Spread) -> float:
         """Return the belt that a plan takes at the least [m]."""

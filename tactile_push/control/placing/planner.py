@@ -124,6 +124,11 @@ class Planner:
         self._looks = 0
         self.drop()
 
+    @property
+    def takes_the_likely(self) -> bool:
+        """Whether the last plan is for the object as it is most likely."""
+        return self._taken.kind == LIKELY.kind
+
     def drop(self) -> None:
         """Drop the last plan, and look on for others."""
         self._last: Plan | None = None

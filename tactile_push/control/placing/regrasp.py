@@ -10,11 +10,71 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from tactile_push.control.placing.model import Goal, Situation
+from tactile_push.control.placing.model import Bounds, Goal, Situation
 from tactile_push.control.placing.planner import Plan
-from tactile_push.control.placing.reachability import Task
+from tactile_push.control.placing.reachability import Task, with_reserve
 
-TOUCHES = 15  # places on the edge that are tried
+TOUCHES = 11  # places on the edge that are tried
+NEAREST = 2e-3  # the least way along the edge that is worth a detour [m]; picked
+THERE = 1e-4  # so near to its place the finger has got there [m]
+LATE = 0.01  # belt by which the object may come later than expected [m]; picked
+
+
+@dataclass(frozen=True)
+class Moves:
+    """How a finger of two axes gets about off the object.
+
+    Raises
+    ------
+    ValueError
+        If the finger is no faster than the belt.
+    """
+
+    speed: float  #: along each axis, at the most [m/s]
+    acceleration: float  #: of it [m/s^2]
+    belt_speed: float  #: of the belt, which is slower [m/s]
+    clearance: float = 2e-3  #: between finger and edge until the finger waits, along the belt [m]
+
+    def __post_init__(self) -> None:
+        if not self.speed > self.belt_speed:
+            raise ValueError(
+                f'speed: expected more than the belt has, {self.belt_speed}, got {self.speed}'
+            )
+
+    def time(self, way: float) -> float:
+        """Return how long a way [m] takes from rest to rest [s]."""
+        if way < self.speed**2 / self.acceleration:
+            return 2.0 * math.sqrt(way / self.acceleration)
+        return way / self.speed + self.speed / self.acceleration
+
+    def retreat(self, gap: float) -> float:
+        """Return the way along the belt after which the edge is so far away [m]."""
+        belt, acceleration = self.belt_speed, self.acceleration
+        root = belt / math.sqrt(acceleration)
+        short = (root + math.sqrt(root**2 + gap)) ** 2
+        if short < self.speed**2 / acceleration:
+            return short
+        return (gap + belt * self.speed / acceleration) / (1.0 - belt / self.speed)
+
+    def towards(self, rest: float, period: float) -> float:
+        """Return the velocity with which to go the rest of a way and stop at its end.
+
+        Parameters
+        ----------
+        rest : float
+            The way [m].
+        period : float
+            Time for which the velocity holds [s].
+
+        Returns
+        -------
+        float
+            The velocity [m/s].
+        """
+        # What is left after slowing down by the acceleration from period to period.
+        step = self.acceleration * period
+        brake = step / 2.0 * (math.sqrt(1.0 + 8.0 * abs(rest) / (step * period)) - 1.0)
+        return math.copysign(min(self.speed, abs(rest) / period, brake), rest)
 
 
 @dataclass(frozen=True)
@@ -27,7 +87,6 @@ class Detour:
     across: float  #: way across the belt [m]
     back: float  #: way along it, by which the line of pushing moves on [m]
     belt: float  #: belt that passes [m]
-    time: float  #: how long it takes [s]
 
 
 @dataclass(frozen=True)
@@ -38,10 +97,13 @@ class Touch:
     detour: Detour  #: the way there
     plan: Plan  #: from there to the goal
 
+    @property
+    def belt(self) -> float:
+        """The belt until the goal [m]."""
+        return self.detour.belt + self.plan.length
 
-def detour(
-    now: Situation, d: float, *, speed: float, belt_speed: float, clearance: float
-) -> Detour:
+
+def detour(now: Situation, d: float, moves: Moves) -> Detour:
     """Return the way to another contact on the same edge.
 
     Parameters
@@ -50,36 +112,21 @@ def detour(
         Where finger and object are.
     d : float
         The other contact along the edge [m].
-    speed : float
-        Of the finger on its way [m/s], more than the belt's.
-    belt_speed : float
-        Of the belt [m/s].
-    clearance : float
-        What is kept between finger and edge until the finger stands where it waits [m].
-
-    Raises
-    ------
-    ValueError
-        If the finger is no faster than the belt.
+    moves : Moves
+        How the finger gets about.
     """
-    if not speed > belt_speed:
-        raise ValueError(f'speed: expected more than the belt has, {belt_speed}, got {speed}')
     way = d - now.d
     # Along the edge the finger's place changes by (cos theta, sin theta) d.
     across, ahead = way * math.cos(now.theta), way * math.sin(now.theta)
-    over = abs(across) / speed
-    # The gap falls or grows evenly on the way across: its ends decide.
-    least = max(clearance, clearance - ahead + belt_speed * over)
-    retreat = least / (speed - belt_speed)
-    wait = ((speed - belt_speed) * retreat + ahead) / belt_speed - over
-    time = retreat + over + wait
-    return Detour(across, speed * retreat, belt_speed * time, time)
+    over = moves.time(abs(across))
+    # The gap falls or grows on the way across: its ends decide.
+    least = max(moves.clearance, moves.clearance - ahead + moves.belt_speed * over)
+    back = moves.retreat(least)
+    return Detour(across, back, back + ahead)
 
 
-def touches(
-    task: Task, goal: Goal, *, speed: float, belt_speed: float, clearance: float
-) -> Iterator[Touch | None]:
-    """Try contacts along the edge; yield after each the best one so far that leads to a goal.
+def touches(task: Task, goal: Goal, moves: Moves, room: float) -> Iterator[Touch | None]:
+    """Try contacts along the edge, with reserve, and without if none leads to the goal then.
 
     Parameters
     ----------
@@ -87,29 +134,81 @@ def touches(
         From where, under which numbers and within which bounds; of the belt the detour takes.
     goal : Goal
         Where to.
-    speed, belt_speed, clearance : float
-        As for `detour`.
+    moves : Moves
+        How the finger gets about.
+    room : float
+        How far it may retreat [m].
 
     Yields
     ------
     Touch or None
-        The best one; None if there is none yet.
+        After each plan the contact that it begins at; None if it does not arrive.
     """
-    bounds, now, best = task.bounds, task.now, None
-    for k in range(TOUCHES):
-        d = bounds.d_min + (bounds.d_max - bounds.d_min) * (k + 0.5) / TOUCHES
-        way = detour(now, d, speed=speed, belt_speed=belt_speed, clearance=clearance)
-        x = now.x + way.across
-        if bounds.x_min <= x <= bounds.x_max and way.belt < task.belt:
-            there = Situation(x, now.theta, d, 0.0, 0.0)
-            plan = Task(there, task.pushed, bounds, task.belt - way.belt).plan(goal)
-            if plan is not None and plan.arrives:
-                touch = Touch(d, way, plan)
-                if best is None or _belt(touch) < _belt(best):
-                    best = touch
-        yield best
+    now, found = task.now, False
+    for limited in (with_reserve(task), task):
+        bounds, belt = limited.bounds, limited.belt
+        for k in range(TOUCHES):
+            d = bounds.d_min + (bounds.d_max - bounds.d_min) * (k + 0.5) / TOUCHES
+            way = detour(now, d, moves)
+            left = belt - way.belt
+            if abs(d - now.d) < NEAREST or left < 0.0 or not fits(way, now, task.bounds, room):
+                continue
+            there = Situation(now.x + way.across, now.theta, d, 0.0, 0.0)
+            plan = Task(there, task.pushed, bounds, left).plan(goal)
+            arrives = plan is not None and plan.arrives
+            found |= arrives
+            yield Touch(d, way, plan) if plan is not None and arrives else None
+        if found:
+            return
 
 
-def _belt(touch: Touch) -> float:
-    """Return the belt until the goal [m]."""
-    return touch.detour.belt + touch.plan.length
+def fits(way: Detour, now: Situation, bounds: Bounds, room: float) -> bool:
+    """Return whether a finger may go a way: within the workspace, and no farther back than it may.
+
+    Parameters
+    ----------
+    way, now, bounds, room : Detour, Situation, Bounds, float
+        The way, from where, within which bounds, and how far the finger may go back [m].
+    """
+    return way.back <= room and bounds.x_min <= now.x + way.across <= bounds.x_max
+
+
+class Regrasp:
+    """A finger on its way to another contact.
+
+    Parameters
+    ----------
+    way : Detour
+        The way.
+    moves : Moves
+        How the finger gets about.
+
+    Attributes
+    ----------
+    is_clear : bool
+        Whether the finger has gone back, so that what it feels is another contact.
+    """
+
+    def __init__(self, way: Detour, moves: Moves) -> None:
+        self._moves = moves
+        self._across, self._back = way.across, -way.back  # what is left of both [m]
+        self._belt = way.belt + LATE  # until the object has come [m]
+        self.is_clear = False
+
+    @property
+    def is_late(self) -> bool:
+        """Whether the object should have come by now."""
+        return self._belt < 0.0
+
+    def pass_time(self, seconds: float, velocity: tuple[float, float]) -> None:
+        """Take note of the time [s] for which the finger had a velocity across and along [m/s]."""
+        self._across -= velocity[0] * seconds
+        self._back -= velocity[1] * seconds
+        self._belt -= self._moves.belt_speed * seconds
+
+    def velocity(self, period: float) -> tuple[float, float]:
+        """Return the velocity across and along the belt for a period [s, m/s]."""
+        self.is_clear = self.is_clear or abs(self._back) <= THERE
+        if not self.is_clear:
+            return 0.0, self._moves.towards(self._back, period)
+        return self._moves.towards(self._across, period), 0.0

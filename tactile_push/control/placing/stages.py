@@ -9,9 +9,12 @@ LEARNING, PLACING, LETTING_GO = 'learning', 'placing', 'letting go'
 # How it ends. Only the first lets the object go.
 RELEASED, MISSED, CANCELLED = 'released', 'missed', 'cancelled'
 OBJECT_LOST, CONTRADICTED, NOTHING_KNOWN = 'object lost', 'contradiction', 'nothing known'
+# The finger has left the object on purpose and touches it elsewhere; last, as bags have the others.
+REGRASPING = 'regrasping'
 STAGES = (
     *(NO_GOAL, LIFTED, AWAITING_CONTACT, LEARNING, PLACING, LETTING_GO),
     *(RELEASED, MISSED, CANCELLED, OBJECT_LOST, CONTRADICTED, NOTHING_KNOWN),
+    REGRASPING,
 )
 FAILURES = frozenset({MISSED, OBJECT_LOST, CONTRADICTED, NOTHING_KNOWN})
 ENDS = FAILURES | {RELEASED, CANCELLED}

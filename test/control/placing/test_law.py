@@ -11,13 +11,16 @@ from tactile_push.control.placing.believing import Belief
 from tactile_push.control.placing.law import NOWHERE, PlaceLaw
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Goal, Pushed, Situation, centre_of_mass, follow
+from tactile_push.control.placing.regrasp import Moves
 from tactile_push.control.placing.stages import (
     CANCELLED,
     LEARNING,
     LETTING_GO,
     MISSED,
     NO_GOAL,
+    OBJECT_LOST,
     PLACING,
+    REGRASPING,
     RELEASED,
 )
 from tactile_push.mechanics import friction_cone
@@ -252,3 +255,75 @@ def test_the_task_is_what_is_left_of_it():
     task = one.task()
     assert task.belt == pytest.approx(0.3 - one.used)
     assert (task.bounds.d_min, task.bounds.d_max) == ENDS
+
+
+MOVES = Moves(0.02, 0.05, BELT_SPEED)
+# Pushed left of the centre of mass at this angle, it moves to the left all the way.
+ASIDE = Situation(0.0, 0.35, 0.012, 0.0, 0.0)
+EXCLUDED = Goal(centre_of_mass(ASIDE, PUSHED) + 0.015, 0.35)
+
+
+def regrasping(**how):
+    """Return a law that has just left the object for another contact."""
+    one = law(EXCLUDED, moves=MOVES, room=0.05, **how)
+    now = ASIDE
+    for _ in range(120):
+        one.believe(belief(now))
+        one.update(now.theta)
+        if one.away is not None:
+            return one
+        one.pass_time(PERIOD)
+        now = follow(now, 1.0 / math.tan(one.phi), PIECE, PUSHED)
+    raise AssertionError(one.stage)
+
+
+def test_a_finger_of_one_axis_stays_on_the_object():
+    one = law(EXCLUDED)
+    driven(one, now=ASIDE, periods=80)
+    assert one.away is None
+    assert one.regrasps == 0
+
+
+def test_a_goal_that_no_push_reaches_is_gone_for_from_another_contact():
+    one = regrasping()
+    assert (one.stage, one.regrasps, one.plan) == (REGRASPING, 1, None)
+    assert one.away == (0.0, pytest.approx(-0.02))
+    assert one.rests == NO_REASON
+    # What is felt before it has gone back is still the contact that it leaves.
+    one.pass_time(PERIOD)
+    one.update(0.35)
+    assert one.stage == REGRASPING
+    used = one.used
+    while one.away != (0.0, 0.0):
+        one.pass_time(PERIOD)
+        one.go_on()
+    assert one.used > used + 0.005
+    # What it feels then is another one, of which nothing is believed yet.
+    one.pass_time(PERIOD)
+    one.update(0.35)
+    assert (one.stage, one.away, one.phi) == (PLACING, None, AHEAD)
+    assert one.present() is None
+
+
+def test_an_object_that_does_not_come_again_is_lost():
+    one = regrasping()
+    for _ in range(100):
+        one.pass_time(PERIOD)
+        one.go_on()
+        if one.stage != REGRASPING:
+            break
+    assert (one.stage, one.away, one.rests) == (OBJECT_LOST, None, NOTHING_TO_DO)
+
+
+def test_a_finger_that_was_stopped_off_the_object_goes_nowhere_by_itself():
+    one = regrasping()
+    one.reset()
+    assert (one.stage, one.away) == (LEARNING, None)
+
+
+def test_the_belt_runs_out_while_the_finger_is_off_the_object_too():
+    one = regrasping(belt=0.2)
+    used = one.used
+    one.pass_time((0.2 - used) / BELT_SPEED + 1e-6)
+    assert one.stage in (MISSED, OBJECT_LOST)
+    assert one.away is None
