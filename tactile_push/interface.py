@@ -116,9 +116,11 @@ WRIST_JOINT = 'wrist_joint'  # in `joint_states` of a finger whose wrist holds t
 
 # Kinds of sensor that the simulated finger may have.
 SENSORS = (SENTENCE, FORCE_TORQUE, CAMERA) = ('sentence', 'wrench', 'camera')
-# Laws of the controller: (18), the one that brings an object to a place and an angle, and (18) with
-# a place across the belt at which the object is carried straight ahead.
-PUSH, PLACE, STEER = LAWS = ('push', 'place', 'steer')
+# Laws of the controller: (18), the one that brings an object to a place and an angle, (18) with a
+# place across the belt at which the object is carried straight ahead, and the one that brings the
+# edge to an angle by all that is known.
+PUSH, PLACE, STEER, SETTLE = LAWS = ('push', 'place', 'steer', 'settle')
+BELIEVE = frozenset({PLACE, SETTLE})  # those that act on what active sensing finds
 # Points of the finger tip of which one follows the commanded velocity across the belt.
 POINTS = ('centre', 'pole', 'contact')
 # What moves the finger: a velocity across the belt, or one of each joint.
@@ -343,11 +345,12 @@ TOPICS = {
         Topic(PLACE_GOAL, POSE_TYPE, (EXPERIMENT, 'your node'), (PUSH_CONTROLLER,),
             'where to let go, in `finger_base`: `position.x` is where the centre of mass is to be '
             'across the belt [m], the yaw is theta of the pushed edge [rad]; with the law `steer` '
-            'where to carry the object straight ahead, whatever the yaw is',
+            'where to carry the object straight ahead, whatever the yaw is; with the law `settle` '
+            'the angle alone, wherever that is',
         ),
         Topic(PLACE_STATE, JOINT_STATE_TYPE, (PUSH_CONTROLLER,), (EXPERIMENT, *PLANTS),
-            'what becomes of the goal, in each control period with the law `place`; stamped as '
-            '`push_controller/state`; NaN is unknown',
+            'what becomes of the goal, in each control period with the laws `place` and `settle`; '
+            'stamped as `push_controller/state`; NaN is unknown, or not what the law is for',
             (
                 Field('stage', '', 'what the law does', 'control.placing.STAGES'),
                 Field('refusal', '', 'why the last goal was refused', 'control.placing.REFUSALS'),

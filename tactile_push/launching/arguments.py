@@ -27,7 +27,7 @@ LIKENESS = 0.8  # of a name and the one that was meant; a file that includes our
 OBEYS = (
     'law of push_controller: push turns the object to theta_desired, place brings it to the goals '
     'on the topic place/goal and lets it go there, steer carries it straight ahead at the x of the '
-    'goal'
+    'goal, settle turns it to the theta of the goal by all that is known'
 )
 SHOWS = 'show the run on a page for browsers, whose address live_page prints'
 

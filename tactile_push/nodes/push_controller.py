@@ -28,11 +28,13 @@ from tactile_push.control import (
 )
 from tactile_push.control.placing.stages import FAILURES, NO_GOAL
 from tactile_push.interface import (
+    BELIEVE,
     COMMAND,
     CONTACT,
     CONTROLLER_STATE,
     JOINT_STATES,
     PLACE,
+    PLACE_RELEASE,
     PLACE_STATE,
     PUSH,
     RESUME,
@@ -123,8 +125,10 @@ class PushController(ManagedNode):
         if law != PUSH and not self._hears_goals:
             self._place.hear_goals()
             self._hears_goals = True
-        if law == PLACE and PLACE_STATE not in self._outputs:
-            self._outputs |= self._place.make()
+        if law in BELIEVE and PLACE_STATE not in self._outputs:
+            self._outputs[PLACE_STATE] = self._place.hear_estimates()
+        if law == PLACE and PLACE_RELEASE not in self._outputs:
+            self._outputs[PLACE_RELEASE] = self._place.make_release()
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Start the law."""
@@ -139,7 +143,7 @@ class PushController(ManagedNode):
         """Begin anew with the law that is asked for; what it needs is made and compiled."""
         p, seconds = self._settings, self._time.seconds
         self._make_topics_of_goals()
-        if p.law == PLACE:
+        if p.law in BELIEVE:
             from tactile_push.nodes.ros.compiling import compiling  # which loads the compiler
 
             with compiling(self, self._diagnostics):
@@ -302,7 +306,7 @@ class PushController(ManagedNode):
         }
         placing = self._steps.placing
         if placing is not None:
-            values |= {'goal': placing.stage, 'goal reachable': placing.reach.verdict}
+            values |= placing.told
             if tick.stop_reason == NOTHING_TO_DO:
                 level = ERROR if placing.stage in FAILURES else OK
                 return Health(level, f'{tick.stop_reason}: {placing.stage}', values)
@@ -326,6 +330,8 @@ class PushController(ManagedNode):
         at_bounds = placing is None and (tick.saturated or tick.limited)  # else as planned
         if placing is not None and placing.stage == NO_GOAL:
             return Health(OK, 'waiting for a goal', values)
+        if placing is not None and placing.doubt:
+            return Health(WARN, f'{_words(tick)}, but {placing.doubt}', values)
         if tick.state == WAITING or at_bounds or lately or others > 0:
             return Health(WARN, _words(tick), values)
         return Health(OK, _words(tick), values)

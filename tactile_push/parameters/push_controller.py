@@ -3,15 +3,20 @@
 """The parameters of `push_controller`, and the control that they make."""
 
 import math
+import typing
 from dataclasses import dataclass
+from typing import Any
 
 from tactile_push import paper
 from tactile_push.control import Limits, PushControl, PushLaw, Steadying, Steering
-from tactile_push.interface import LAWS, PLACE, PUSH, STEER
+from tactile_push.interface import LAWS, PLACE, PUSH, SETTLE, STEER
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
 from tactile_push.pipeline import Control, Seconds
 from tactile_push.tactile import PlanarFinger
+
+if typing.TYPE_CHECKING:
+    from tactile_push.pipeline.believing import Believing
 
 LIMITS = Limits()
 STEEPEST = 1.5  # largest angle that the edge may be asked to have [rad]; pi/2 faces away
@@ -24,8 +29,9 @@ class PushControllerParameters(NodeParameters):
     # fmt: off
     law: str = parameter(PUSH, '',
         'what the finger does: push turns the object by the law (18), place brings it to the goals '
-        'on place/goal and lets it go there, steer carries it straight ahead at the x of the goal; '
-        'counts from the next activation on', choices=LAWS)
+        'on place/goal and lets it go there, steer carries it straight ahead at the x of the goal, '
+        'settle turns it to the theta of the goal by all that is known, theta_desired until there '
+        'is one; counts from the next activation on', choices=LAWS)
     kp: float = parameter(paper.KP, 'rad/rad', 'proportional gain of the law (18)', 0.0, 100.0)
     kd: float = parameter(paper.KD, 'rad/rad', 'derivative gain of the law (18)', 0.0, 1000.0)
     theta_desired: float = parameter(paper.THETA_DESIRED, 'rad',
@@ -124,23 +130,49 @@ def choose_law(steps: Control, p: PushControllerParameters, seconds: Seconds) ->
     steps.push.law = make_law(p)
     steps.push.steadying = make_steadying(steps.push.law, p)
     if p.law == PLACE:
-        # Which load the compiler.
-        from tactile_push.control.placing.compiling import compile_placing
-        from tactile_push.control.placing.law import NOWHERE, PlaceLaw
-        from tactile_push.pipeline.placing import Placing
+        steps.placing = _make_placing(steps.push, p, seconds)
+    elif p.law == SETTLE:
+        steps.placing = _make_settling(steps.push, p, seconds)
 
-        slowest = math.atan2(p.belt_speed, p.max_speed)  # phi at the greatest speed
-        law = PlaceLaw(
-            *(NOWHERE, p.belt_length, p.belt_speed, 1.0 / p.control_rate),
-            lag=p.finger_lag,
-            delay=p.release_delay,
-            workspace=(p.workspace_min, p.workspace_max),
-            rate=p.max_acceleration,
-            phi_min=max(p.phi_min, slowest),
-            phi_max=min(p.phi_max, math.pi - slowest),
-        )
-        compile_placing()
-        steps.placing = Placing(steps.push, law, seconds)
+
+def _make_placing(push: PushControl, p: PushControllerParameters, seconds: Seconds) -> 'Believing':
+    """Let a control place."""
+    # Which load the compiler.
+    from tactile_push.control.placing.compiling import compile_placing
+    from tactile_push.control.placing.law import NOWHERE, PlaceLaw
+    from tactile_push.pipeline.placing import Placing
+
+    law = PlaceLaw(
+        *(NOWHERE, p.belt_length, p.belt_speed, 1.0 / p.control_rate),
+        delay=p.release_delay,
+        **_bounds(p),
+    )
+    compile_placing()
+    return Placing(push, law, seconds)
+
+
+def _make_settling(push: PushControl, p: PushControllerParameters, seconds: Seconds) -> 'Believing':
+    """Let a control settle."""
+    from tactile_push.control.placing.compiling import compile_settling
+    from tactile_push.control.placing.settle_law import SettleLaw
+    from tactile_push.pipeline.settling import Settling
+
+    law = SettleLaw(p.theta_desired, p.belt_speed, 1.0 / p.control_rate, **_bounds(p))
+    law.tune(p.kp, p.kd, p.theta_desired)
+    compile_settling()
+    return Settling(push, law, seconds)
+
+
+def _bounds(p: PushControllerParameters) -> dict[str, Any]:
+    """Return what bounds the commands of a law that believes."""
+    slowest = math.atan2(p.belt_speed, p.max_speed)  # phi at the greatest speed
+    return {
+        'lag': p.finger_lag,
+        'workspace': (p.workspace_min, p.workspace_max),
+        'rate': p.max_acceleration,
+        'phi_min': max(p.phi_min, slowest),
+        'phi_max': min(p.phi_max, math.pi - slowest),
+    }
 
 
 def make_finger(p: PushControllerParameters) -> PlanarFinger:

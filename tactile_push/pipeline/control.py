@@ -22,7 +22,7 @@ from tactile_push.tactile import PlanarFinger
 from tactile_push.tactile.planar_finger import pole_angle
 
 if typing.TYPE_CHECKING:
-    from tactile_push.pipeline.placing import Placing
+    from tactile_push.pipeline.believing import Believing
 
 
 class Control:
@@ -45,8 +45,8 @@ class Control:
         [rad/m]; NaN if unknown.
     outlook : Outlook
         Where the finger's drift leads, as of the last tick; unknown with a law that has goals.
-    placing : Placing or None
-        What serves goals, if the law does.
+    placing : Believing or None
+        What serves goals, if the law believes.
     """
 
     def __init__(
@@ -64,7 +64,7 @@ class Control:
         )
         self.turning = math.nan
         self.outlook = UNKNOWN
-        self.placing: Placing | None = None
+        self.placing: Believing | None = None
         self._now = math.nan  # of the last tick [s]
 
     @property

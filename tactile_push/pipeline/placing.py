@@ -7,50 +7,38 @@ and `finish` takes what came of it. `PushControl` decides when the finger stops,
 """
 
 import math
-from collections import deque
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 
 from tactile_push.control import CONTACT_SILENT, PUSHING, PushControl, Tick
-from tactile_push.control.placing.believing import Belief
 from tactile_push.control.placing.law import PlaceLaw
-from tactile_push.control.placing.model import Goal, centre_of_mass
+from tactile_push.control.placing.model import Goal
 from tactile_push.control.placing.stages import (
     AWAITING_CONTACT,
     CANCELLED,
     CONTRADICTED,
-    FACES_AWAY,
     HELD_STILL,
     LEARNING,
     LETTING_GO,
     LIFTED,
     NO_EDGE,
-    NOT_FINITE,
     NOTHING_KNOWN,
     OBJECT_LOST,
-    OTHER_FRAME,
-    OTHER_ROTATION,
+    OUT_OF_REACH,
     OUTSIDE_WORKSPACE,
     PLACING,
     REASONS,
-    REFUSALS,
     RELEASED,
-    STAGES,
     VERDICTS,
 )
 from tactile_push.estimation.contradictions import BLIND, CONTRADICTIONS
-from tactile_push.interface import FINGER_BASE, PLACE_RELEASE, PLACE_STATE, is_frame
-from tactile_push.pipeline.belief import belief_of
-from tactile_push.pipeline.messages import Output, joint_state_fields
-from tactile_push.pipeline.named import by_name
-from tactile_push.pipeline.orientation import yaw_of_quaternion
+from tactile_push.interface import PLACE_RELEASE
+from tactile_push.pipeline.believing import OLDEST, Believing
+from tactile_push.pipeline.messages import Output
 from tactile_push.pipeline.outlook import ReachOutlook
 from tactile_push.pipeline.stamps import Seconds, Stamp
 
-OLDEST = 5  # control periods for which the law does without a new estimate; picked
-NOTHING: tuple[float, dict[str, float]] = (-math.inf, {})  # heard of the object
 
-
-class Placing:
+class Placing(Believing):
     """Serves goals with the law that places.
 
     Parameters
@@ -64,77 +52,29 @@ class Placing:
 
     Attributes
     ----------
-    goals, refused, released : int
-        Goals taken and refused, and objects let go.
-    refusal : str
-        Why the last goal was refused, one of `REFUSALS`; empty if it was not.
     reach : ReachOutlook
         Whether the goal can be reached.
     """
 
+    _law: PlaceLaw
+
     def __init__(self, push: PushControl, law: PlaceLaw, seconds: Seconds) -> None:
-        push.law = law
-        self._push, self._law = push, law
-        self._seconds = seconds
-        self.goals = self.refused = self.released = 0
-        self.refusal = ''
+        super().__init__(push, law, seconds)
         self.reach = ReachOutlook()
         self._goal = law.goal
         self._lifted = False
         self._next: Goal | None = None  # for which the finger has to be put down again
         self._says_down = False
-        self._heard = NOTHING  # of the object, and of which control period [s]
-        self._used = -math.inf  # the control period that the law's estimate is about [s]
-        self._unknown = 0  # periods of pushing since the last estimate
-        self._belief: Belief | None = None
-        self._read = math.nan  # when the reading was taken that it is about [s]
         self._began = math.inf  # when the law first felt the object [s]
-        # When a control period began [s], where the finger was at its reading [m], and how the tip
-        # turned there for its way [rad/m].
-        self._periods: deque[tuple[float, float, float]] = deque(maxlen=4 * OLDEST)
-        self._ticked = math.nan  # [s]
-        self._v_x = math.nan  # from the last tick on [m/s]
-
-    def goal(self, frame: str, x: float, rotation: Sequence[float]) -> str:
-        """Take a message of `place/goal`, or refuse it and go on as before.
-
-        Parameters
-        ----------
-        frame, x, rotation : str, float, sequence of float
-            The message's frame, x of its position [m], and its quaternion.
-
-        Returns
-        -------
-        str
-            Why it is refused, one of `REFUSALS`; empty if it is not.
-        """
-        goal = Goal(x, yaw_of_quaternion(*rotation))
-        if not is_frame(frame, FINGER_BASE):
-            refusal = OTHER_FRAME
-        elif not all(map(math.isfinite, (x, *rotation))):
-            refusal = NOT_FINITE
-        else:
-            refusal = self._refusal(goal)
-        if refusal:
-            self.refuse(refusal)
-        else:
-            self.take(goal)
-        return refusal
 
     def take(self, goal: Goal) -> None:
         """Serve a goal, in place of the one that is served."""
-        self.goals += 1
-        self.refusal = ''
+        super().take(goal)
         self._goal = goal
         if self._lifted:
             self._next = goal
         else:
             self._start(goal)
-
-    def refuse(self, refusal: str) -> None:
-        """Take note that a goal was refused, for one of `REFUSALS`."""
-        self.refused += 1
-        self.refusal = refusal
 
     def cancel(self) -> bool:
         """Give up the goal; return whether there was one that the object was not let go for."""
@@ -143,25 +83,6 @@ class Placing:
         self._next = None
         self._law.end(CANCELLED)
         return True
-
-    def sensed(self, stamp: Stamp, names: Sequence[str], positions: Sequence[float]) -> None:
-        """Take a message of `active_sensing/state`.
-
-        One that is not the newest, or not about a control period of this controller, is ignored.
-
-        Parameters
-        ----------
-        stamp, names, positions : tuple of int, sequence of str, sequence of float
-            When its control period began [s, ns], names and their values.
-        """
-        at = self._seconds(*stamp)
-        if at > self._heard[0] and any(at == began for began, _, _ in self._periods):
-            self._heard = at, by_name(names, positions)
-
-    @property
-    def awaits_estimate(self) -> bool:
-        """Whether the estimate of the last control period is still to come."""
-        return self._acts and self._push.state == PUSHING and self._heard[0] < self._ticked
 
     @property
     def stage(self) -> str:
@@ -191,11 +112,7 @@ class Placing:
         """Begin a control period, before the control ticks."""
         if self._waits_to_tell:  # in vain
             self._law.take_back()
-        at, values = self._heard
-        is_new = at != self._used
-        if is_new:
-            self._used = at
-            self._belief, self._read = self._believed(at, values)
+        is_new = self._take_estimate()
         if not self._acts:
             return
         law = self._law
@@ -211,16 +128,8 @@ class Placing:
         law.believe(self._belief, self._ticked - self._read)
 
     def finish(self, now: float, tick: Tick, turning: float) -> None:
-        """Take what came of a control period.
-
-        Parameters
-        ----------
-        now, tick, turning : float, Tick, float
-            When it began [s], what the control used and gave, and by how much the tip turns for
-            each metre across the belt [rad/m].
-        """
-        self._periods.append((now, tick.x_at_reading(self._v_x), turning))
-        self._ticked, self._v_x = now, tick.known_velocity
+        """Take what came of a control period, as in `Believing`."""
+        super().finish(now, tick, turning)
         if self._acts:
             self._began = min(self._began, now)
             if tick.stop_reason == CONTACT_SILENT:
@@ -241,7 +150,7 @@ class Placing:
 
     def outputs(self, stamp: Stamp) -> Iterator[Output]:
         """Yield the messages of a control period."""
-        yield PLACE_STATE, joint_state_fields(stamp, self.values())
+        yield from super().outputs(stamp)
         if self._says_down:
             self._says_down = False
             yield PLACE_RELEASE, {'data': False}
@@ -250,22 +159,9 @@ class Placing:
         """Return the numbers of `place/state` after a tick, by name."""
         law, reach = self._law, self.reach
         plan = law.plan if law.stage in (PLACING, LETTING_GO, RELEASED) else None
-        x = theta = d = math.nan
-        present = law.present()
-        if present is not None:
-            now, belief = present
-            x, theta, d = centre_of_mass(now, belief.pushed), now.theta, now.d
-        return {
-            'stage': float(STAGES.index(self.stage)),
-            'refusal': float(REFUSALS.index(self.refusal)),
-            'goals': float(self.goals),
-            'refused': float(self.refused),
-            'released': float(self.released),
+        return super().values() | {
             'goal_x': self._goal.x,
             'goal_theta': self._goal.theta,
-            'x': x,
-            'theta': theta,
-            'd': d,
             'x_miss': plan.x_error if plan else math.nan,
             'theta_miss': plan.theta_error if plan else math.nan,
             'way_left': plan.length if plan else math.nan,
@@ -275,9 +171,19 @@ class Placing:
             'nearest_x': reach.nearest.x,
             'nearest_theta': reach.nearest.theta,
             'let_go_in': self.let_go_in,
-            'estimate_age': self._ticked - self._used if self._heard is not NOTHING else math.nan,
-            'turning': self._periods[-1][2] if self._periods else math.nan,
         }
+
+    @property
+    def doubt(self) -> str:
+        """What somebody should hear of, in words: that the goal is out of reach."""
+        reach = self.reach
+        out = reach.verdict == OUT_OF_REACH
+        return f'out of reach by what is known: {reach.reason}' if out else ''
+
+    @property
+    def told(self) -> dict[str, object]:
+        """What diagnostics tell of the goal."""
+        return super().told | {'goal reachable': self.reach.verdict}
 
     @property
     def _unfinished(self) -> bool:
@@ -312,16 +218,13 @@ class Placing:
 
     def _refusal(self, goal: Goal) -> str:
         """Return why a goal of finite numbers is refused, empty if it is not."""
-        if math.isnan(goal.theta):
-            return OTHER_ROTATION
-        if abs(goal.theta) >= math.pi / 2.0:
-            return FACES_AWAY
+        refusal = super()._refusal(goal)
+        if refusal not in ('', HELD_STILL):
+            return refusal
         _, values = self._heard
         if values and math.isnan(values.get('edge', math.nan)):
             return NO_EDGE
-        if not self._within_workspace(goal, values):
-            return OUTSIDE_WORKSPACE
-        return HELD_STILL if self._push.held else ''
+        return refusal if self._within_workspace(goal, values) else OUTSIDE_WORKSPACE
 
     def _within_workspace(self, goal: Goal, values: Mapping[str, float]) -> bool:
         """Return whether the finger stays in the workspace at a goal, wherever it touches the edge.
@@ -336,12 +239,3 @@ class Placing:
             across = goal.x + (l + r) * math.sin(goal.theta)
             least, most = (across + d * math.cos(goal.theta) for d in (start, end))
         return most >= limits.workspace_min and least <= limits.workspace_max
-
-    def _believed(self, at: float, values: Mapping[str, float]) -> tuple[Belief | None, float]:
-        """Return what is believed of a control period, and when its reading was taken [s]."""
-        read = at - values.get('age', math.nan)
-        for began, x, turning in self._periods:
-            if began == at and math.isfinite(read):
-                piece = self._push.period * self._push.belt_speed
-                return belief_of(values, x, turning, piece), read
-        return None, math.nan

@@ -20,7 +20,7 @@ from tactile_push.control import (
     plausible,
     tick_of,
 )
-from tactile_push.interface import PLACE, PUSH
+from tactile_push.interface import BELIEVE, PUSH
 from tactile_push.parameters.push_controller import (
     PushControllerParameters,
     choose_law,
@@ -63,7 +63,7 @@ class ReplayedController:
     `push_controller/state` says when the node ticked, which contact and which position of the
     finger were the newest, and what happened otherwise: an activation, another node's command, a
     clock that was set, a resume. The rest follows. Overridden parameters do not follow the bag.
-    With the law `place`, `place/state` says what else happened, if it was recorded.
+    With a law that believes, `place/state` says what else happened, if it was recorded.
     """
 
     def __init__(
@@ -173,7 +173,7 @@ class ReplayedController:
             self._feed_placing(recorded)
             self._feed(recorded, now)
             return self.step.tick(recorded.stamp, tick.elapsed)
-        if PLACE in (self._law(recorded), self._values.law):
+        if BELIEVE & {self._law(recorded), self._values.law}:
             return None  # the law's memory is not in the bag
         if before is None or not before.tick.state == tick.state == PUSHING:
             return None
@@ -185,21 +185,21 @@ class ReplayedController:
 
     def _law(self, recorded: _Recorded) -> str:
         """Return which law acted in a control period."""
-        places = self.placing is not None and self.placing.of(recorded.stamp) is not None
-        return PLACE if places else PUSH
+        law = None if self.placing is None else self.placing.law(recorded.stamp)
+        return law or PUSH
 
     def _activate(self, recorded: _Recorded, now: float) -> bool:
         """Begin with the law that the node began with; return whether it can be followed."""
         law = self._law(recorded)
-        if self._values.law == PLACE != law:  # nobody recorded what it was told
+        if self._values.law in BELIEVE and law not in BELIEVE:  # nobody recorded what it was told
             return False
         choose_law(self.step, replace(self._values, law=law), self._seconds)
         self._push.activate(now - _waited(recorded.tick))
         return True
 
     def _feed_placing(self, recorded: _Recorded) -> None:
-        """Give the law that places its goals and estimates."""
-        if self.placing is not None and self._law(recorded) == PLACE:
+        """Give a law that believes its goals and estimates."""
+        if self.placing is not None and self._law(recorded) in BELIEVE:
             self.placing.feed(self.step, recorded.stamp)
 
     def _feed(self, recorded: _Recorded, now: float) -> None:

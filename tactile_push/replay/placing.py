@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Goals, estimates and releases of a bag, given to the law that places as its node had them."""
+"""Goals, estimates and releases of a bag, given to a law that believes as its node had them."""
 
 import math
 import typing
@@ -8,12 +8,13 @@ from collections import deque
 from collections.abc import Mapping
 from typing import Any
 
-from tactile_push.control.placing.stages import CANCELLED, REFUSALS, STAGES
+from tactile_push.control.placing.stages import CANCELLED, REFUSALS, SETTLES, STAGES
+from tactile_push.interface import PLACE, SETTLE
 from tactile_push.pipeline import Control, Seconds, Stamp, by_name
 from tactile_push.pipeline.stamps import stamp_of
 
 if typing.TYPE_CHECKING:
-    from tactile_push.pipeline.placing import Placing
+    from tactile_push.pipeline.believing import Believing
 
 HALF_A_NANOSECOND = 0.5e-9  # two stamps differ by more [s]
 REMEMBERED = 1000  # estimates that no control period has used yet
@@ -54,16 +55,19 @@ class RecordedPlacing:
         Returns
         -------
         bool
-            Whether it is; true as well if the law had no goals then.
+            Whether it is; true as well if the law was none that believes.
         """
         if stamp not in self._periods:
             return self._come_to > self._seconds(*stamp)
         used = self._used(stamp)
         return last or math.isnan(used) or self._newest > used - HALF_A_NANOSECOND
 
-    def of(self, stamp: Stamp) -> Mapping[str, float] | None:
-        """Return what was said of a control period; None if the law had no goals then."""
-        return self._periods.get(stamp)
+    def law(self, stamp: Stamp) -> str | None:
+        """Return which law acted in a control period; None if it was none that believes."""
+        values = self._periods.get(stamp)
+        if values is None:
+            return None
+        return SETTLE if STAGES[int(values['stage'])] in SETTLES else PLACE
 
     def feed(self, step: Control, stamp: Stamp) -> None:
         """Repeat what happened before a control period, and forget the periods before."""
@@ -74,7 +78,7 @@ class RecordedPlacing:
         if values['released'] > placing.released:
             placing.release()
         self._repeat_goals(placing, values)
-        if STAGES[int(values['stage'])] == CANCELLED:
+        if STAGES[int(values['stage'])] == CANCELLED or math.isnan(values['goal_theta']):
             placing.cancel()
         used = self._used(stamp)
         for at, message in self._estimates:
@@ -84,7 +88,7 @@ class RecordedPlacing:
             del self._periods[old]
 
     @staticmethod
-    def _repeat_goals(placing: 'Placing', values: Mapping[str, float]) -> None:
+    def _repeat_goals(placing: 'Believing', values: Mapping[str, float]) -> None:
         from tactile_push.control.placing.model import Goal  # which loads the compiler
 
         goals, refused = int(values['goals']), int(values['refused'])

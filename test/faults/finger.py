@@ -20,6 +20,7 @@ from tactile_push.control import PUSHING, SERVO_STOP_REASONS, STOP_REASONS, TICK
 from tactile_push.control.placing import STAGES
 from tactile_push.interface import (
     ACTIVE_SENSING,
+    BELIEVE,
     CONTACT_GEOMETRY,
     FINGER_SERVO,
     IMAGE,
@@ -106,7 +107,7 @@ class Finger(Rig):
         self.chain = (SIM_PLANT, self._sensor.node, CONTACT_GEOMETRY, PUSH_CONTROLLER)
         if setup.servo:
             self.chain += (FINGER_SERVO,)
-        if setup.places:
+        if setup.law in BELIEVE:
             self.chain += (ACTIVE_SENSING,)
         if setup.relay:
             self.relay = Relay(observer, RELAYED[setup.relay], self.name(setup.relay))
@@ -137,7 +138,7 @@ class Finger(Rig):
             parameters['device'] = self.proxy.url
         elif node == PUSH_CONTROLLER:
             parameters['autostart'] = False
-            parameters |= {'law': PLACE} if self._setup.places else {}
+            parameters['law'] = self._setup.law
             parameters |= dict(self._setup.controller)
         elif node == ACTIVE_SENSING:
             parameters |= dict(self._setup.sensing)
@@ -183,7 +184,7 @@ class Finger(Rig):
     def turn(self) -> None:
         """Ask for the other angle or place, so that the finger has to move."""
         self._desired = -self._desired
-        if self._setup.places:
+        if self._setup.law == PLACE:
             start = field(self.truth[0], 'object_x')
             self.give_goal(goal(start + math.copysign(ASIDE, self._desired)))
         else:

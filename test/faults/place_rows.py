@@ -13,7 +13,7 @@ from lifecycle_msgs.msg import Transition
 from std_srvs.srv import Trigger
 
 from tactile_push.control.placing import REFUSALS
-from tactile_push.interface import ACTIVE_SENSING, CANCEL
+from tactile_push.interface import ACTIVE_SENSING, CANCEL, PLACE, SETTLE
 from tactile_push.tactile import NO_CONTACT
 from tactile_push.testing import field
 
@@ -22,11 +22,12 @@ from .finger import Finger, goal
 from .promise import ASKED, ESTIMATE_LOST, ONE_PERIOD, SIGNAL, SILENT, Setup, fault
 from .topic_rows import command
 
-PLACES = Setup(places=True)
-SHORT = Setup(places=True, controller=(('belt_length', 0.01),))
+PLACES = Setup(law=PLACE)
+SETTLES = Setup(law=SETTLE)
+SHORT = Setup(law=PLACE, controller=(('belt_length', 0.01),))
 # Turns a third as fast as the object that is pushed.
 DEEP = [-0.025, -0.1, 0.025, -0.1, 0.025, 0.1, -0.025, 0.1]
-OTHER = Setup(places=True, sensing=(('vertices', DEEP),))
+OTHER = Setup(law=PLACE, sensing=(('vertices', DEEP),))
 RESTS = 0.6  # for so long a finger is watched that has nothing to do any more [s]
 SLOW = 30.0  # within which a belt is used up or another object shows [s]
 BEYOND = 1.0  # outside any workspace [m]
@@ -181,3 +182,31 @@ def sensing_killed(bench: Bench) -> None:
     with _nothing_let_go(bench) as finger:
         bench.stopped(finger.kill(ACTIVE_SENSING))
         _ends(finger, 'nothing known')
+
+
+@fault('contact lost while settling', SILENT, setup=SETTLES)
+def contact_lost_while_settling(bench: Bench) -> None:
+    """Contact silent; goes on to the goal when contact is back."""
+    finger = bench.finger
+    at = time.monotonic()
+    finger.proxy.alter = lambda sentence: replace(sentence, reading=NO_CONTACT)
+    bench.stopped(at)
+    finger.expect_rest('contact silent')
+    finger.proxy.mend()
+    finger.turn()
+    finger.wait_until_moving()
+    finger.expect_stage('settling')
+
+
+@fault('active_sensing killed while settling', setup=SETTLES, last=True)
+def sensing_killed_while_settling(bench: Bench) -> None:
+    """Goes on by the last estimate for 5 control periods, then by law (18)."""
+    finger = bench.finger
+    finger.expect_stage('settling')
+    begin = time.monotonic()
+    finger.kill(ACTIVE_SENSING)
+    finger.expect_stage('settling by law (18)')
+    finger.turn()
+    finger.wait_until_moving()
+    stopped = finger.reasons_since(begin) - {''}
+    expect(not stopped, f'stopped: {", ".join(stopped)}')

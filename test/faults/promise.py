@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from tactile_push.interface import SENTENCE
+from tactile_push.interface import PUSH, SENTENCE
 
 if TYPE_CHECKING:
     from .bench import Bench
@@ -41,8 +41,9 @@ class Setup:
         Whether the tool publishes /clock and all nodes live by it.
     servo : bool, optional
         Whether `finger_servo` moves the joints of the plant's finger.
-    places : bool, optional
-        Whether the law is `place`, with `active_sensing`.
+    law : str, optional
+        The controller's law, one of `interface.LAWS`; `active_sensing` runs beside one that needs
+        it.
     controller, sensing : tuple of (str, object), optional
         More parameters of `push_controller` and of `active_sensing`.
     """
@@ -52,7 +53,7 @@ class Setup:
     sensor: str = SENTENCE
     own_clock: bool = False
     servo: bool = False
-    places: bool = False
+    law: str = PUSH
     controller: tuple[tuple[str, Any], ...] = ()
     sensing: tuple[tuple[str, Any], ...] = ()
 

@@ -102,7 +102,7 @@ def test_law_is_that_of_the_argument_or_else_of_a_file(own):
     assert 'law' not in values(plan, 'active_sensing')
     demo = demo_plan({'law': 'place', 'watch': 'false'})
     assert values(demo, 'push_controller')['law'] == 'place'
-    refusal = "argument law: expected one of push, place, steer, got 'shove'"
+    refusal = "argument law: expected one of push, place, steer, settle, got 'shove'"
     with pytest.raises(ValueError, match=refusal):
         finger_plan({'law': 'shove'})
 

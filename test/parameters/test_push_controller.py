@@ -3,11 +3,12 @@
 """The control that the parameters of `push_controller` make."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
 from tactile_push.control import Steadying, Steering
-from tactile_push.interface import PLACE, PUSH, STEER
+from tactile_push.interface import PLACE, PUSH, SETTLE, STEER
 from tactile_push.parameters import PushControllerParameters
 from tactile_push.parameters.push_controller import (
     check_fit,
@@ -17,6 +18,7 @@ from tactile_push.parameters.push_controller import (
     take_values,
 )
 from tactile_push.pipeline import Control
+from tactile_push.pipeline.settling import Settling
 
 # Each number that may change while the node runs, and where it has to arrive.
 VALUES = {
@@ -123,6 +125,19 @@ def test_the_law_that_places_gets_its_numbers():
     # The finger gets as far aside as half the belt's way at the most.
     assert 1.0 / math.tan(law.phi_min) == pytest.approx(0.5)
     assert 1.0 / math.tan(law.phi_max) == pytest.approx(-0.5)
+
+
+def test_the_law_that_settles_gets_its_numbers_and_those_of_law_18():
+    values = PushControllerParameters(
+        law=SETTLE, kp=0.1, kd=2.0, theta_desired=0.3, belt_speed=0.02, max_speed=0.01
+    )
+    steps = steps_of(values)
+    law = steps.push.law
+    assert isinstance(steps.placing, Settling)
+    assert (law.kp, law.kd, law.aim) == (0.1, 2.0, 0.3)
+    assert 1.0 / math.tan(law.phi_min) == pytest.approx(0.5)
+    take_values(steps.push, replace(values, theta_desired=0.2))
+    assert law.aim == 0.2
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,7 @@ from tactile_push.bags import BagReader
 from tactile_push.cli import main
 from tactile_push.control import NOTHING_TO_DO
 from tactile_push.control.placing import STAGES
+from tactile_push.control.placing.stages import SETTLES
 
 GOAL, SECOND = (-0.02, -0.1), (-0.012, 0.05)
 STRAIGHT = (0.0, 0.0, 0.0, 1.0)
@@ -94,6 +95,37 @@ def test_estimates_and_states_of_goals_may_be_recorded_after_the_periods_that_us
     late.bag(tmp_path / 'late')
     replayed(tmp_path / 'late', out=tmp_path / 'out')
     assert contents(tmp_path / 'out') == contents(bag)
+
+
+def settles():
+    """Return a line on which the law settles, with goals and for a while without estimates."""
+    line = Line(theta=0.35, d=-0.006, late=1, age=0.03, law='settle')
+    for _ in range(12):
+        line.period()
+    line.ask(0.0, 0.1)
+    line.placing.goal('map', 0.0, STRAIGHT)
+    for _ in range(12):
+        line.period()
+    line.senses = False
+    for _ in range(12):
+        line.period()
+    line.senses = True
+    line.placing.cancel()
+    for _ in range(12):
+        line.period()
+    line.deactivate()
+    return line
+
+
+def test_the_law_that_settles_is_made_again_to_the_last_digit(tmp_path):
+    line = settles()
+    assert {STAGES[int(values['stage'])] for values in line.states} == set(SETTLES)
+    bag = line.bag(tmp_path / 'bag')
+    (comparison,) = replayed(bag, out=tmp_path / 'out')
+    assert (comparison.kept, len(comparison.ticks)) == (0, len(line.ticks) + 1)
+    assert not comparison.different()
+    said = [STATE, COMMAND, '/push_controller/state']
+    assert contents(tmp_path / 'out', said) == contents(bag, said)
 
 
 def test_another_belt_ends_otherwise(run):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from support.placed_tables import BELT, GOALS, LAST, LIFTED, OFF, PLACED, V_Y, states, truth
+from tactile_push.control.placing import STAGES
 from tactile_push.report.placings import GOAL_HEADS, goal_cells, placings, way_of
 
 
@@ -69,6 +70,12 @@ def test_bags_without_goals_or_of_other_versions_have_none():
     bare = ('time', 'stage', 'goals', 'goal_x', 'goal_theta')
     one, *_ = placings({name: states()[name] for name in bare}, {})
     assert (one.stage, one.verdict, one.belt, one.miss) == ('released', 'unknown', None, None)
+
+
+def test_angles_to_settle_at_are_no_places():
+    table = states()
+    table['stage'] = np.full(len(table['time']), float(STAGES.index('settling')))
+    assert placings(table, {}) == []
 
 
 def test_goals_of_two_activations_are_told_apart():

@@ -11,10 +11,12 @@ RELEASED, MISSED, CANCELLED = 'released', 'missed', 'cancelled'
 OBJECT_LOST, CONTRADICTED, NOTHING_KNOWN = 'object lost', 'contradiction', 'nothing known'
 # The finger has left the object on purpose and touches it elsewhere; last, as bags have the others.
 REGRASPING = 'regrasping'
+# Of the law that settles, whose goals do not end: by what is known of the object, or without it.
+SETTLING, SETTLING_BLINDLY = SETTLES = ('settling', 'settling by law (18)')
 STAGES = (
     *(NO_GOAL, LIFTED, AWAITING_CONTACT, LEARNING, PLACING, LETTING_GO),
     *(RELEASED, MISSED, CANCELLED, OBJECT_LOST, CONTRADICTED, NOTHING_KNOWN),
-    REGRASPING,
+    *(REGRASPING, *SETTLES),
 )
 FAILURES = frozenset({MISSED, OBJECT_LOST, CONTRADICTED, NOTHING_KNOWN})
 ENDS = FAILURES | {RELEASED, CANCELLED}

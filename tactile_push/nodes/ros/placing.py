@@ -19,7 +19,7 @@ from std_msgs.msg import Bool
 from std_srvs.srv import Trigger
 
 from tactile_push.control.placing import ENDS
-from tactile_push.control.placing.stages import OUT_OF_REACH, RELEASED
+from tactile_push.control.placing.stages import RELEASED
 from tactile_push.interface import CANCEL, PLACE_GOAL, PLACE_RELEASE, PLACE_STATE, SENSING_STATE
 from tactile_push.nodes.ros.managed import ManagedNode
 from tactile_push.nodes.ros.qos import PUBLISHED
@@ -27,7 +27,7 @@ from tactile_push.pipeline.orientation import yaw_of_quaternion
 from tactile_push.pipeline.stamps import stamp_of
 
 if TYPE_CHECKING:
-    from tactile_push.pipeline.placing import Placing
+    from tactile_push.pipeline.believing import Believing
     from tactile_push.pipeline.steering import SteerGoals
 
 # For so long of wall time simulated time waits for an estimate [s]: shorter than the plant waits
@@ -37,7 +37,7 @@ INACTIVE = 'inactive'
 
 
 class PlaceTopics:
-    """Tells `Placing` what goals and estimates arrive, and the finger when to let go.
+    """Tells `Believing` what goals and estimates arrive, and the finger when to let go.
 
     The law that steers has goals alone, which `SteerGoals` takes.
 
@@ -52,36 +52,36 @@ class PlaceTopics:
     def __init__(self, node: ManagedNode, arrived: Callable[[], object]) -> None:
         self._node = node
         self._arrived = arrived
-        self._placing: Placing | None = None
-        self._taker: Placing | SteerGoals | None = None  # of goals
+        self._placing: Believing | None = None
+        self._taker: Believing | SteerGoals | None = None  # of goals
         self._release: Publisher | None = None
         self._timer: Timer | None = None  # until the moment to let go
         self._waiting: Timer | None = None  # for an estimate, no longer than its patience
         self._since = math.nan  # it waits, by a clock that cannot be set [s]
         self._answers = True  # active_sensing
-        self._stage = self._verdict = ''
+        self._stage = self._doubt = ''
         node.create_service(Trigger, CANCEL, self._on_cancel)
 
-    def make(self) -> dict[str, Publisher]:
-        """Make the topics, until the node is cleaned up, and return what is published by name."""
-        node = self._node
-        self._release = node.make_publisher(Bool, PLACE_RELEASE)
-        node.make_subscription(JointState, SENSING_STATE, self._on_estimate, PUBLISHED)
-        return {
-            PLACE_STATE: node.make_publisher(JointState, PLACE_STATE),
-            PLACE_RELEASE: self._release,
-        }
+    def hear_estimates(self) -> Publisher:
+        """Take estimates, until the node is cleaned up; return who says what becomes of goals."""
+        self._node.make_subscription(JointState, SENSING_STATE, self._on_estimate, PUBLISHED)
+        return self._node.make_publisher(JointState, PLACE_STATE)
+
+    def make_release(self) -> Publisher:
+        """Return who says when to let go, until the node is cleaned up."""
+        self._release = self._node.make_publisher(Bool, PLACE_RELEASE)
+        return self._release
 
     def hear_goals(self) -> None:
         """Take goals, until the node is cleaned up."""
         self._node.make_subscription(PoseStamped, PLACE_GOAL, self._on_goal, PUBLISHED)
 
-    def serve(self, placing: 'Placing | None', steering: 'SteerGoals | None' = None) -> None:
+    def serve(self, placing: 'Believing | None', steering: 'SteerGoals | None' = None) -> None:
         """Let somebody else take goals; None for nobody, as while the node is inactive."""
         self._placing = placing
         self._taker = placing or steering
         self._answers = True
-        self._stage = self._verdict = ''
+        self._stage = self._doubt = ''
         self._end_timers()
 
     def waits(self) -> bool:
@@ -161,18 +161,18 @@ class PlaceTopics:
             assert self._release is not None
             self._release.publish(Bool(data=True))
 
-    def _tell(self, placing: 'Placing') -> None:
-        """Say once what has become of the goal, and whether it is out of reach."""
-        logger, reach = self._node.get_logger(), placing.reach
-        if reach.verdict != self._verdict and reach.verdict == OUT_OF_REACH:
-            logger.warning(f'{PLACE_GOAL}: out of reach by what is known: {reach.reason}')
+    def _tell(self, placing: 'Believing') -> None:
+        """Say once what has become of the goal, and what is doubtful about it."""
+        logger, doubt = self._node.get_logger(), placing.doubt
+        if doubt and doubt != self._doubt:
+            logger.warning(f'{PLACE_GOAL}: {doubt}')
         if placing.stage != self._stage and placing.stage in ENDS:
             # In two lines of code: rclpy raises an error where one logs at two levels.
             if placing.stage == RELEASED:
                 logger.info(f'{PLACE_GOAL}: {placing.stage}')
             else:
                 logger.warning(f'{PLACE_GOAL}: {placing.stage}')
-        self._verdict, self._stage = reach.verdict, placing.stage
+        self._doubt, self._stage = doubt, placing.stage
 
     def _forget_release(self) -> None:
         if self._timer is not None:

@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 
+from tactile_push.control import PushLaw
 from tactile_push.control.placing.believing import Belief
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Pushed, Situation, follow
@@ -47,9 +48,27 @@ def driven(one, d_error=0.0, periods=100):
     return np.array(thetas)
 
 
-def test_it_pushes_straight_ahead_until_something_is_believed():
+def test_it_is_law_18_until_something_is_believed_and_again_after_that():
+    one, other = law(), PushLaw(0.05, 5.0, math.radians(-10.0))
+    one.tune(0.05, 5.0, math.radians(-10.0))
+    for theta in (0.2, 0.21, 0.2):
+        assert one.update(theta) == other.update(theta)
+    one.believe(belief(START))
+    one.pass_time(PERIOD)
+    assert one.update(0.19) != other.update(0.19)
+    one.believe(None)
+    other.phi = one.phi
+    assert one.update(0.18) == other.update(0.18)
+
+
+def test_the_angle_of_a_goal_takes_the_place_of_theta_desired():
     one = law()
-    assert [one.update(0.2), one.update(0.21), one.update(0.2)] == [AHEAD] * 3
+    one.goal = math.radians(20.0)
+    assert one.aim == math.radians(20.0)
+    thetas = driven(one)
+    assert np.abs(thetas[10:] - math.radians(20.0)).max() < math.radians(0.5)
+    one.goal = math.nan
+    assert one.aim == math.radians(-10.0)
 
 
 def test_it_turns_the_edge_as_fast_as_phi_allows_and_then_holds_it():
@@ -71,6 +90,7 @@ def test_after_a_stop_it_believes_nothing():
     one = law()
     driven(one, periods=10)
     one.reset()
+    assert one.present() is None
     assert [one.update(0.1), one.update(0.1)] == [AHEAD] * 2
 
 

@@ -3,7 +3,6 @@
 """Goals and estimates on their way to the law that places, and the word to let go."""
 
 import math
-from types import SimpleNamespace
 
 import pytest
 from geometry_msgs.msg import PoseStamped
@@ -15,7 +14,12 @@ from std_srvs.srv import Trigger
 
 from support.node_bench import NodeBench
 from tactile_push.control.placing import STAGES
-from tactile_push.control.placing.stages import CANCELLED, NO_GOAL, NOTHING_KNOWN
+from tactile_push.control.placing.stages import (
+    CANCELLED,
+    NO_GOAL,
+    NOTHING_KNOWN,
+    SETTLING_BLINDLY,
+)
 from tactile_push.interface import (
     CANCEL,
     CONTACT,
@@ -26,11 +30,12 @@ from tactile_push.interface import (
     PLACE_RELEASE,
     PLACE_STATE,
     PUSH,
+    SETTLE,
     STEER,
     TOPICS,
 )
 from tactile_push.nodes.push_controller import PushController
-from tactile_push.nodes.ros.diagnostics import ERROR, OK
+from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN
 from tactile_push.nodes.ros.messages import filled
 from tactile_push.nodes.ros.placing import PlaceTopics
 from tactile_push.pipeline.messages import joint_state_fields, pose_fields
@@ -184,12 +189,29 @@ def test_the_law_that_steers_takes_goals_and_gives_them_up(bench):
     bench.until(lambda: node._steps.placing.goals == 1)  # heard once
 
 
+def test_the_law_that_settles_takes_goals_and_says_when_nothing_is_known(bench):
+    node = bench.start(PushController, **(RATE | {'law': SETTLE}))
+    warned = []
+    node.get_logger().warning = warned.append
+    finger = Finger(bench)
+    finger.goals.publish(goal(x=0.5, theta=0.2))
+    finger.until(lambda: node._steps.placing.goals == 1)
+    assert node._control.law.aim == pytest.approx(0.2)
+    doubt = 'nothing is known of the object, so law (18) acts'
+    finger.until(lambda: bench.health == (WARN, f'pushing, but {doubt}'))
+    assert warned == [f'place/goal: {doubt}']
+    assert finger.stage == SETTLING_BLINDLY
+    assert PLACE_RELEASE not in node._outputs
+    answer = node._place._on_cancel(Trigger.Request(), Trigger.Response())
+    assert (answer.success, answer.message) == (True, f'was {SETTLING_BLINDLY}')
+
+
 class Told:
     """Stands in for the steps: wants to let go soon, and says whether that holds."""
 
     def __init__(self, let_go_in, holds=True):
         self.let_go_in, self.holds = let_go_in, holds
-        self.stage, self.reach = 'placing', SimpleNamespace(verdict='unknown', reason='')
+        self.stage, self.doubt = 'placing', ''
         self.released = 0
         self.awaits_estimate = False
 
