@@ -13,6 +13,7 @@ from tactile_push.control.placing.regrasp import Moves
 from tactile_push.control.placing.stages import REGRASPING, RELEASED
 from tactile_push.estimation import ActiveSensing, FingerMotion, ObjectEstimator, edges_of
 from tactile_push.mechanics import Outline, Slider, Support
+from tactile_push.mechanics.resistance import resistance
 from tactile_push.paper import BLOCK_CORNERS, BLOCK_DEPTH, BLOCK_EDGE
 from tactile_push.simulation import Rig, RigConfig, paper_block
 from tactile_push.simulation.faults import Faults
@@ -21,6 +22,7 @@ from tactile_push.simulation.sensor import Sensor
 from tactile_push.simulation.servo import Servo
 
 LAG, NOISE = 0.1, math.radians(0.3)
+BLOCK = Outline.rectangle(BLOCK_EDGE, BLOCK_DEPTH)
 
 
 def law_for(config, shift, theta, belt=0.3):
@@ -45,8 +47,7 @@ def test_an_object_is_placed_if_the_truth_is_told(tip_turns):
 
 @pytest.mark.slow
 def test_an_object_is_placed_by_touch_alone():
-    outline = Outline.rectangle(BLOCK_EDGE, BLOCK_DEPTH)
-    slider = Slider.on(outline, Support.corners(outline), exact=True)
+    slider = Slider.on(BLOCK, Support.corners(BLOCK), exact=True)
     config = RigConfig(slider, 0.5, 0.2, 0.003, tip_turns=False)
     law = law_for(config, -0.02, -0.1)
     estimator = ObjectEstimator(edges_of(BLOCK_CORNERS)[:1], NOISE, l_share=0.01, radius_share=0.01)
@@ -59,13 +60,33 @@ def test_an_object_is_placed_by_touch_alone():
     assert 0.0 < found.learned < found.belt
 
 
-def test_four_corners_resist_turning_four_times_as_much_when_they_only_spin():
-    # All friction acts at one distance: c^2 is half its square at first, and twice it in a spin.
-    outline = Outline.rectangle(BLOCK_EDGE, BLOCK_DEPTH)
-    found = pressure_of(Slider.on(outline, Support.corners(outline), exact=True))
-    assert found.c_squared == pytest.approx((BLOCK_EDGE**2 + BLOCK_DEPTH**2) / 8.0)
-    assert found.growth == pytest.approx(3.0)
+def test_an_object_that_hardly_turns_resists_by_the_moment_of_its_load_along_its_way():
+    slider = Slider.on(BLOCK, Support.corners(BLOCK), exact=True)
+    for tangent, along in ((0.0, BLOCK_EDGE), (math.pi / 2.0, BLOCK_DEPTH)):
+        found = pressure_of(slider, tangent)
+        assert resistance(1.0, 0.0, 0.0, found) == pytest.approx(along**2 / 4.0)
     assert pressure_of(paper_block(c=0.02).slider)[:2] == pytest.approx((4e-4, 0.0))
+
+
+@pytest.mark.parametrize(
+    ('bearing', 'within'),
+    [
+        (Support.uniform(BLOCK, 400), 0.15),  # one of whose points is at the centre
+        (Support.circle(0.01, count=400), 0.15),
+        (Support.rim(BLOCK, 400), 0.15),
+        (Support.corners(BLOCK), 0.4),
+    ],
+)
+def test_an_object_that_turns_resists_much_as_on_the_exact_limit_surface(bearing, within):
+    slider = Slider.on(BLOCK, bearing, exact=True)
+    found = pressure_of(slider)
+    for turn in (0.1, 0.3, 0.5):
+        omega = turn / math.sqrt(found.c_squared)
+        for way in (0.0, 0.5, -0.8):
+            v_x, v_y = math.sin(way), math.cos(way)
+            f_x, f_y, m = slider.wrench((v_x, v_y, omega))
+            exact = m / math.hypot(f_x, f_y) / omega
+            assert resistance(v_x, v_y, omega, found) == pytest.approx(exact, rel=within)
 
 
 MOVES, ROOM = Moves(0.02, 0.05, 0.005), 0.05
@@ -73,10 +94,9 @@ MOVES, ROOM = Moves(0.02, 0.05, 0.005), 0.05
 
 def regrasping(theta, d, shift, belt, support=None):
     """Return a rig and a law with two axes whose goal no push from the first contact reaches."""
-    outline = Outline.rectangle(BLOCK_EDGE, BLOCK_DEPTH)
     slider = paper_block().slider
     if support is not None:
-        slider = Slider.on(outline, support(outline), exact=True)
+        slider = Slider.on(BLOCK, support(BLOCK), exact=True)
     config = RigConfig(slider, math.inf, theta, d, tip_turns=False)
     one = law_for(config, shift, theta, belt)
     two = PlaceLaw(*(one.goal, belt, config.belt_speed, 0.1), lag=LAG, moves=MOVES, room=ROOM)
