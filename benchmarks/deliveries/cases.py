@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tactile_push import paper
+from tactile_push.control.placing.horizon import Plan, new_plan
 from tactile_push.control.placing.model import Bounds, Goal, Situation, ahead, follow
-from tactile_push.control.placing.planner import Plan, new_plan
 from tactile_push.control.placing.reachability import Task, reach, with_reserve
 from tactile_push.control.placing.search import FAMILIES
 from tactile_push.control.placing.stages import AT_THE_LIMITS, WITH_RESERVE

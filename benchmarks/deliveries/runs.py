@@ -10,9 +10,7 @@ import numpy as np
 from deliveries.cases import WORKSPACE, Case, Group, case, long_search, rig_of
 from deliveries.rivals import Rival
 from tactile_push import paper
-from tactile_push.control.placing.believing import Belief
 from tactile_push.control.placing.law import PlaceLaw
-from tactile_push.control.placing.model import Bounds, Situation
 from tactile_push.control.placing.reachability import Task, reach
 from tactile_push.control.placing.stages import LEARNING, OUT_OF_REACH, RELEASED, WITH_RESERVE
 from tactile_push.estimation import ActiveSensing, FingerMotion, ObjectEstimator
@@ -25,30 +23,19 @@ ENOUGH = 0.5  # [mm] and degrees within which a goal counts as reached
 class WatchedLaw(PlaceLaw):
     """Remembers what was believed when it committed itself."""
 
-    believed: Belief | None = None
-    _committed: Belief | None = None
-
-    def believe(self, belief: Belief | None, age: float = 0.0) -> None:
-        """Take what is believed, as in `PlaceLaw`."""
-        super().believe(belief, age)
-        self.believed = belief
+    _committed: Task | None = None
 
     def update(self, theta: float) -> float:
         """Give the push angle, as in `PlaceLaw`."""
         learning = self.stage == LEARNING
         phi = super().update(theta)
         if learning and self.stage != LEARNING:
-            self._committed = self.believed
+            self._committed = self.task()
         return phi
 
-    def promise(self, bounds: Bounds) -> str:
+    def promise(self) -> str:
         """Return the verdict on its goal under what it believed; empty if it never knew."""
-        known = self._committed
-        if known is None:
-            return ''
-        now = Situation(known.x, known.theta, known.d, 0.0, 0.0)
-        bounds = bounds._replace(d_min=known.ends[0], d_max=known.ends[1])
-        return reach(Task(now, known.pushed, bounds, self.belt), self.goal).verdict
+        return reach(self._committed, self.goal).verdict if self._committed else ''
 
 
 @dataclass(frozen=True)
@@ -120,7 +107,7 @@ def run(seed: int, group: Group, every: bool) -> Outcome:
     law = law_for(one, group)
     sensing = None if group.state_told else sensing_for(one, group)
     placed = place(rig_of(one, group), law, sensing=sensing, seed=seed)
-    promise = law.promise(one.task.bounds) if isinstance(law, WatchedLaw) and sensing else ''
+    promise = law.promise() if isinstance(law, WatchedLaw) and sensing else ''
     return Outcome(seed, one.verdict, promise, long_search(one.task, one.goal), placed)
 
 

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from tactile_push.control.placing import horizon
 from tactile_push.control.placing.law import NOWHERE
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation
 from tactile_push.control.placing.reachability import Task
@@ -28,59 +29,69 @@ def law(task=TASK):
 
 
 @pytest.fixture
-def plans(monkeypatch):
-    """List the goals that were planned for."""
+def refined(monkeypatch):
+    """List the goals for which a push was refined."""
     found = []
-    plan = Task.plan
+    refine = horizon.refine
 
-    def found_too(self, goal, **how):
+    def noted(push, now, goal, *more):
         found.append(goal)
-        return plan(self, goal, **how)
+        return refine(push, now, goal, *more)
 
-    monkeypatch.setattr(Task, 'plan', found_too)
+    monkeypatch.setattr(horizon, 'refine', noted)
     return found
 
 
-def test_a_look_takes_a_plan_a_time_and_then_no_more(plans):
+def looked(outlook, refined, goal, deviation=1e-3):
+    """Look once; return how many pushes that refined."""
+    before = len(refined)
+    outlook.look(law(), goal, deviation)
+    return len(refined) - before
+
+
+def test_a_look_refines_one_push_a_time_and_then_no_more(refined):
     outlook = ReachOutlook()
     assert (outlook.verdict, outlook.nearest) == (UNKNOWN, NOWHERE)
-    for made in (1, 2, 2, 2):
-        outlook.look(law(), NEAR, 1e-3)
-        assert len(plans) == made
+    while outlook.verdict == UNKNOWN:
+        assert looked(outlook, refined, NEAR) <= 1
     assert (outlook.verdict, outlook.reason) == (WITH_RESERVE, '')
+    assert len(refined) > 1
+    assert [looked(outlook, refined, NEAR) for _ in range(2)] == [0, 0]
 
 
-def test_of_a_goal_out_of_reach_the_reason_comes_first_and_the_nearest_goal_later(plans):
-    outlook, before = ReachOutlook(), 0
+def test_of_a_goal_out_of_reach_the_reason_comes_first_and_the_nearest_goal_later(refined):
+    outlook = ReachOutlook()
+    while outlook.verdict == UNKNOWN:
+        assert looked(outlook, refined, BEYOND) <= 1
+    assert (outlook.verdict, outlook.reason) == (OUT_OF_REACH, WORKSPACE)
+    assert outlook.nearest is NOWHERE
     while math.isnan(outlook.nearest.x):
-        outlook.look(law(), BEYOND, 1e-3)
-        assert len(plans) <= before + 1
-        before = len(plans)
-        if len(plans) > 5:
-            assert (outlook.verdict, outlook.reason) == (OUT_OF_REACH, WORKSPACE)
+        assert looked(outlook, refined, BEYOND) <= 1
     assert TASK.arrives(outlook.nearest)
 
 
-def test_it_looks_again_when_d_is_twice_as_well_known(plans):
+def test_it_looks_again_when_d_is_twice_as_well_known(refined):
     outlook = ReachOutlook()
     # As long as d may be nearly anywhere there is nothing to look from.
-    for deviation, made in ((8e-3, 0), (2.9e-3, 1), (2e-3, 2), (1.4e-3, 3), (1e-3, 4), (0.8e-3, 4)):
-        outlook.look(law(), NEAR, deviation)
-        assert len(plans) == made
+    assert looked(outlook, refined, NEAR, 8e-3) == 0
+    for deviation in (2.9e-3, 1.4e-3):
+        assert looked(outlook, refined, NEAR, deviation) == 1
+        outlook.verdict = UNKNOWN
+        while outlook.verdict == UNKNOWN:
+            looked(outlook, refined, NEAR, deviation)
+        assert looked(outlook, refined, NEAR, 0.6 * deviation) == 0
 
 
-def test_a_look_that_was_broken_off_is_not_taken_up(plans):
+def test_a_look_that_was_broken_off_is_not_taken_up(refined):
     outlook = ReachOutlook()
-    outlook.look(law(), NEAR, 1e-3)
+    assert looked(outlook, refined, NEAR) == 1
     outlook.pause()
-    outlook.look(law(), NEAR, 1e-3)
-    assert len(plans) == 1
-    outlook.look(law(), NEAR, 1e-4)
-    assert len(plans) == 2
+    assert looked(outlook, refined, NEAR) == 0
+    assert looked(outlook, refined, NEAR, 1e-4) == 1
 
 
-def test_without_a_place_to_look_from_it_waits(plans):
+def test_without_a_place_to_look_from_it_waits(refined):
     outlook = ReachOutlook()
     outlook.look(law(None), NEAR, 1e-3)
     outlook.look(law(), NEAR, 1e-3)
-    assert len(plans) == 1
+    assert len(refined) == 1

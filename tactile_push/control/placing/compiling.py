@@ -9,6 +9,7 @@ import numpy as np
 
 from tactile_push import paper
 from tactile_push.control.placing.believing import Belief, BelievingLaw
+from tactile_push.control.placing.horizon import pushes
 from tactile_push.control.placing.law import PlaceLaw
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Goal, Pushed, centre_of_mass
@@ -43,6 +44,7 @@ def _push(law: BelievingLaw, deviations: Sequence[float]) -> None:
         law.believe(Belief(0.0, THETA, 0.0, pushed, (0.3, math.inf), ends, spread))
         law.pass_time(paper.CONTROL_PERIOD)
         law.update(THETA)
-    present = law.present()
-    assert present is not None
-    centre_of_mass(present[0], pushed)
+    task = law.task()
+    assert task is not None
+    centre_of_mass(task.now, pushed)
+    pushes((task.now, law.goal, pushed), task.bounds, 0.0, task.belt, 0, roundabout=True)

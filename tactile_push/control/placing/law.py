@@ -11,9 +11,10 @@ import numpy as np
 from tactile_push.control.law import AHEAD, motion_angle
 from tactile_push.control.placing.arcs import UNKNOWNS, rest_of
 from tactile_push.control.placing.believing import D_MARGIN, Belief, BelievingLaw
+from tactile_push.control.placing.horizon import Plan
 from tactile_push.control.placing.learning import Spread, telling_command
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation, ahead
-from tactile_push.control.placing.planner import DETOUR, Plan, Planner
+from tactile_push.control.placing.planner import DETOUR, Planner
 from tactile_push.control.placing.reachability import Task
 from tactile_push.control.placing.regrasp import Moves, Regrasp, Touch, detour, fits, touches
 from tactile_push.control.placing.stages import (
@@ -211,7 +212,8 @@ class PlaceLaw(BelievingLaw):
         if present is None:
             return None
         now, belief = present
-        return Task(now, belief.pushed, self._inside(belief, 0.0), max(self.belt - self.used, 0.0))
+        bounds, left = self._inside(belief, 0.0), max(self.belt - self.used, 0.0)
+        return Task(now, belief.pushed, bounds, left, _others(belief))
 
     def _act(self) -> None:
         """Choose the push angle."""

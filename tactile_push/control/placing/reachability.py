@@ -5,8 +5,8 @@
 import math
 from collections.abc import Generator
 from dataclasses import dataclass, replace
-from typing import TypeVar
 
+from tactile_push.control.placing.horizon import MORE_TRIES, Plan, at_once, planning
 from tactile_push.control.placing.model import (
     Bounds,
     Goal,
@@ -15,7 +15,7 @@ from tactile_push.control.placing.model import (
     centre_of_mass,
     narrowed,
 )
-from tactile_push.control.placing.planner import Plan, new_plan
+from tactile_push.control.placing.planner import LIKELY, LOOK_TRIES, Look, looks_of
 from tactile_push.control.placing.stages import (
     AT_THE_LIMITS,
     BELT,
@@ -27,7 +27,6 @@ from tactile_push.control.placing.stages import (
     WORKSPACE,
 )
 
-T = TypeVar('T')
 # What is spared for a reserve: shares of cot(phi) and of the belt, ends of edge and workspace [m],
 # theta [rad].
 STEEPNESS_SPARED, BELT_SPARED, SPARED, THETA_SPARED = 0.15, 0.2, 3e-3, math.radians(5.0)
@@ -36,6 +35,9 @@ FAR = 10.0  # no end of an edge, a workspace or a belt [m]
 # directions.
 STEPS = 32  # in which goals between one and the start are tried
 RADII, DIRECTIONS, HALVINGS = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0), 12, 3
+
+
+PLAIN = Look(LIKELY)
 
 
 @dataclass(frozen=True)
@@ -55,11 +57,20 @@ class Task:
     pushed: Pushed  #: numbers of object and finger
     bounds: Bounds  #: what may not be left
     belt: float  #: what there is of it [m]
+    others: tuple[Pushed, ...] = ()  #: what the object may also be
 
-    def plan(self, goal: Goal, *, roundabout: bool = False) -> Plan | None:
-        """Return the best plan for a goal, with another push first if it is `roundabout`."""
-        problem = self.now, goal, self.pushed
-        return new_plan(problem, self.bounds, 0.0, self.belt, roundabout=roundabout)
+    def planning(
+        self, goal: Goal, look: Look = PLAIN, tries: int = MORE_TRIES
+    ) -> Generator[None, None, Plan | None]:
+        """Return the pieces of the best plan for a goal, as `planning` does."""
+        problem = self.now, goal, (self.pushed, *self.others)[look.taken.kind]
+        belt = min(look.least, self.belt), self.belt
+        bounds = look.bounds(self.bounds)
+        return planning(problem, bounds, *belt, tries, roundabout=look.roundabout)
+
+    def plan(self, goal: Goal) -> Plan | None:
+        """Return the best plan for a goal."""
+        return at_once(self.planning(goal))
 
     def arrives(self, goal: Goal) -> bool:
         """Return whether there is a plan that gets to a goal."""
@@ -68,26 +79,6 @@ class Task:
 
 def _arrives(plan: Plan | None) -> bool:
     return plan is not None and plan.arrives
-
-
-def at_once(plans: Generator[None, None, T]) -> T:
-    """Return the result of a generator that pauses after each plan.
-
-    Parameters
-    ----------
-    plans : generator
-        Such as `judging` returns.
-
-    Returns
-    -------
-    object
-        What it returns in the end.
-    """
-    while True:
-        try:
-            next(plans)
-        except StopIteration as end:
-            return end.value
 
 
 def reach(task: Task, goal: Goal) -> Reach:
@@ -111,6 +102,9 @@ def reach(task: Task, goal: Goal) -> Reach:
 def judging(task: Task, goal: Goal) -> Generator[None, None, Reach]:
     """Find out the same, for who has no time for all the plans at once.
 
+    A goal is out of reach if none of the plans arrives that the law would look for. It is reached
+    with reserve if one with what is most likely does that spares some of every limit.
+
     Parameters
     ----------
     task, goal : Task, Goal
@@ -119,26 +113,35 @@ def judging(task: Task, goal: Goal) -> Generator[None, None, Reach]:
     Yields
     ------
     None
-        After each plan.
+        After each piece of work.
 
     Returns
     -------
     Reach
         As `reach` does.
     """
-    plans = []
-    for roundabout in (False, True):
-        plan = task.plan(goal, roundabout=roundabout)
+    first = None
+    for look in _looks(task):
+        plan = yield from task.planning(goal, look)
         yield
         if _arrives(plan):
-            spared = with_reserve(task).plan(goal, roundabout=roundabout)
-            yield
+            spared = None
+            if look.taken == LIKELY:
+                spared = yield from with_reserve(task).planning(goal, look)
+                yield
             if _arrives(spared):
                 return Reach(WITH_RESERVE, '', spared)
             return Reach(AT_THE_LIMITS, '', plan)
-        plans.append(plan)
+        if look == PLAIN:
+            first = plan
     reason = yield from _reason(task, goal)
-    return Reach(OUT_OF_REACH, reason, plans[0])
+    return Reach(OUT_OF_REACH, reason, first)
+
+
+def _looks(task: Task) -> list[Look]:
+    """Return which plans the law would follow, first those that take nothing for granted."""
+    looks = (look for look in looks_of(1 + len(task.others)) if not look.spares)
+    return sorted(looks, key=lambda look: look.taken != LIKELY)
 
 
 def with_reserve(task: Task) -> Task:
@@ -156,9 +159,9 @@ def _reason(task: Task, goal: Goal) -> Generator[None, None, str]:
         BELT: replace(task, belt=max(4.0 * task.belt, 0.5)),
     }
     for reason, other in without.items():
-        arrives = other.arrives(goal)
+        plan = yield from other.planning(goal)
         yield
-        if arrives:
+        if _arrives(plan):
             return reason
     return CONTACT
 
@@ -192,7 +195,7 @@ def nearing(task: Task, goal: Goal) -> Generator[None, None, Goal | None]:
     Yields
     ------
     None
-        After each plan.
+        After each piece of work.
 
     Returns
     -------
@@ -206,23 +209,22 @@ def nearing(task: Task, goal: Goal) -> Generator[None, None, Goal | None]:
             goal.theta + math.radians(radius) * math.sin(direction),
         )
 
-    arrives = task.arrives(goal)
-    yield
-    if arrives:
+    def arriving(goal: Goal) -> Generator[None, None, bool]:
+        plan = yield from task.planning(goal, tries=LOOK_TRIES)
+        yield
+        return _arrives(plan)
+
+    if (yield from arriving(goal)):
         return goal
     nearer = 0.0
     for radius in RADII:
         for k in range(DIRECTIONS):
             direction = 2.0 * math.pi * k / DIRECTIONS
-            arrives = task.arrives(at(radius, direction))
-            yield
-            if not arrives:
+            if not (yield from arriving(at(radius, direction))):
                 continue
             for _ in range(HALVINGS):
                 middle = (nearer + radius) / 2.0
-                arrives = task.arrives(at(middle, direction))
-                yield
-                if arrives:
+                if (yield from arriving(at(middle, direction))):
                     radius = middle
                 else:
                     nearer = middle

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from tactile_push.control.placing import horizon, refinement
-from tactile_push.control.placing.arcs import ARCS, LENGTH, UNKNOWNS
+from tactile_push.control.placing.arcs import ARCS, LENGTH
 from tactile_push.control.placing.car import shortest_belt
+from tactile_push.control.placing.horizon import Plan, at_once, new_plan, planning
 from tactile_push.control.placing.model import (
     Bounds,
     Goal,
@@ -33,10 +34,7 @@ def pushed(mu_c=math.inf, r=R):
 
 
 def planned(start, goal, numbers, bounds, most=0.3, roundabout=False):
-    push = np.empty(UNKNOWNS)
-    task = start, goal, numbers, bounds, 0.0, most
-    told = horizon.plan(*task, 3, 8, 15, roundabout, push)
-    return push, told
+    return new_plan((start, goal, numbers), bounds, 0.0, most, roundabout=roundabout)
 
 
 def end(start, push, numbers):
@@ -53,11 +51,11 @@ def test_a_shift_takes_no_less_than_the_shortest_belt_and_no_more_than_with_the_
     # Without rolling; an object that goes straight ahead before and afterwards.
     numbers = pushed(r=1e-9)
     start = Situation(0.0, 0.0, 0.0, 0.0, 0.0)
-    push, told = planned(start, Goal(shift, 0.0), numbers, FREE)
+    plan = planned(start, Goal(shift, 0.0), numbers, FREE)
     wheelbase = (C * C + L * L) / L
-    belt = push[ARCS:].sum() * LENGTH
-    assert abs(told[1]) < 1e-5
-    assert abs(told[2]) < 1e-4
+    belt = plan.length
+    assert abs(plan.x_error) < 1e-5
+    assert abs(plan.theta_error) < 1e-4
     assert belt >= (1.0 - 2e-3) * shortest_belt(shift, wheelbase, STEEPEST)
     # A short shift takes 2 sqrt(L X/u) of belt s; s (BRIEF + EFFORT u^2/U^2) is least at this u.
     cheapest = STEEPEST * math.sqrt(refinement.BRIEF / (3.0 * refinement.EFFORT))
@@ -78,11 +76,45 @@ def test_what_a_push_reaches_is_found_again_on_no_longer_belt(mu_c):
             continue
         tried += 1
         goal = Goal(centre_of_mass(now, numbers), now.theta)
-        push, told = planned(start, goal, numbers, BOUNDS)
-        assert abs(told[1]) < 1e-4
-        assert abs(told[2]) < math.radians(0.1)
-        assert told[3] < 1.0
-        assert push[ARCS:].sum() * LENGTH <= 1.3 * belt
-        x, theta = end(start, push, numbers)
+        plan = planned(start, goal, numbers, BOUNDS)
+        assert abs(plan.x_error) < 1e-4
+        assert abs(plan.theta_error) < math.radians(0.1)
+        assert plan.beyond < 1.0
+        assert plan.length <= 1.3 * belt
+        x, theta = end(start, plan.push, numbers)
         assert x == pytest.approx(goal.x, abs=3e-4)
         assert theta == pytest.approx(goal.theta, abs=math.radians(0.3))
+
+
+def test_the_first_command_is_the_mean_over_the_period():
+    plan = Plan(np.array((1.0, -1.0, 0.0, 0.0, 0.001, 0.1, 0.0, 0.0)), 0.0, 0.0, 0.0, 0.0)
+    assert plan.length == pytest.approx(0.101 * LENGTH)
+    assert plan.command(0.0005) == pytest.approx(0.2 * 1.0 - 0.8 * 1.0)
+    assert plan.command(0.00005) == pytest.approx(1.0)
+
+
+def test_of_two_plans_one_that_misses_less_is_better_unless_it_takes_much_more_belt():
+    push = np.array((0.0, 0.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.0))
+    longer = np.array((0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0))
+    near, exact = Plan(push, 0.0, 1e-4, 0.0, 0.0), Plan(push, 0.0, 0.0, 0.0, 0.0)
+    assert exact.merit < near.merit < Plan(longer, 0.0, 0.0, 0.0, 0.0).merit
+
+
+def test_a_plan_in_pieces_is_the_one_that_is_made_at_once_and_no_piece_is_more_than_a_refinement(
+    monkeypatch,
+):
+    rounds = []
+    refine = horizon.refine
+
+    def counted(*numbers):
+        rounds.append(numbers[-1])
+        return refine(*numbers)
+
+    monkeypatch.setattr(horizon, 'refine', counted)
+    start, goal = Situation(0.0, 0.2, 0.003, 0.0, 0.0), Goal(-0.03, -0.1)
+    problem = (start, goal, pushed()), BOUNDS, 0.0, 0.3
+    pieces = planning(*problem)
+    for made, _ in enumerate(pieces, 1):
+        assert rounds == [horizon.ROUNDS] * made
+    assert at_once(planning(*problem)).push.tolist() == new_plan(*problem).push.tolist()
+    assert made + 1 <= horizon.MORE_TRIES

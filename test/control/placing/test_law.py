@@ -91,13 +91,13 @@ def test_it_lets_go_within_the_period_in_which_the_object_is_there():
 @pytest.mark.parametrize('share', [0.94, 1.06])
 def test_an_object_that_turns_otherwise_than_believed_need_not_go_around_once_more(share):
     goal = Goal(-0.03, 0.3)
-    as_believed, otherwise = law(goal), law(goal)
+    as_believed, otherwise = law(goal, lag=PERIOD), law(goal, lag=PERIOD)
     pressure = PUSHED.pressure._replace(c_squared=share * PUSHED.pressure.c_squared)
-    driven(as_believed)
-    end = driven(otherwise, truth=PUSHED._replace(pressure=pressure))
+    driven(as_believed, truth=PUSHED._replace(lag=PIECE))
+    end = driven(otherwise, truth=PUSHED._replace(pressure=pressure, lag=PIECE))
     assert otherwise.stage == RELEASED
-    assert centre_of_mass(end, PUSHED) == pytest.approx(goal.x, abs=3e-4)
-    assert end.theta == pytest.approx(goal.theta, abs=math.radians(0.3))
+    assert centre_of_mass(end, PUSHED) == pytest.approx(goal.x, abs=1e-4)
+    assert end.theta == pytest.approx(goal.theta, abs=math.radians(0.1))
     assert otherwise.used < as_believed.used + 0.01
 
 

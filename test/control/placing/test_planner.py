@@ -6,7 +6,6 @@ import math
 import numpy as np
 import pytest
 
-from tactile_push.control.placing.arcs import LENGTH
 from tactile_push.control.placing.model import (
     Bounds,
     Goal,
@@ -15,7 +14,7 @@ from tactile_push.control.placing.model import (
     centre_of_mass,
     follow,
 )
-from tactile_push.control.placing.planner import Plan, Planner
+from tactile_push.control.placing.planner import Planner
 from tactile_push.mechanics import friction_cone
 from tactile_push.mechanics.resistance import Pressure
 
@@ -26,20 +25,6 @@ PIECE = 5e-4
 def pushed(c=0.0187, mu_c=math.inf):
     pressure = Pressure(c * c, 1.5, 0.0, np.array((1.0, 0.0, 1.0)))
     return Pushed(0.02375, 0.0135, pressure, *friction_cone(mu_c), 0.0, PIECE)
-
-
-def test_the_first_command_is_the_mean_over_the_period():
-    plan = Plan(np.array((1.0, -1.0, 0.0, 0.0, 0.001, 0.1, 0.0, 0.0)), 0.0, 0.0, 0.0, 0.0)
-    assert plan.length == pytest.approx(0.101 * LENGTH)
-    assert plan.command(0.0005) == pytest.approx(0.2 * 1.0 - 0.8 * 1.0)
-    assert plan.command(0.00005) == pytest.approx(1.0)
-
-
-def test_of_two_plans_one_that_misses_less_is_better_unless_it_takes_much_more_belt():
-    push = np.array((0.0, 0.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.0))
-    longer = np.array((0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0))
-    near, exact = Plan(push, 0.0, 1e-4, 0.0, 0.0), Plan(push, 0.0, 0.0, 0.0, 0.0)
-    assert exact.merit < near.merit < Plan(longer, 0.0, 0.0, 0.0, 0.0).merit
 
 
 def closed_loop(truth, believed, goal, now):

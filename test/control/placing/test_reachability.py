@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from tactile_push.control.placing import horizon
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation, centre_of_mass
 from tactile_push.control.placing.reachability import (
     Task,
@@ -81,13 +83,33 @@ def test_the_nearest_goal_to_one_in_reach_is_itself():
 
 
 @pytest.mark.parametrize('looking', [judging, nearing])
-def test_a_look_pauses_after_each_plan(looking, monkeypatch):
-    plans = []
-    # And none is found.
-    monkeypatch.setattr(Task, 'plan', lambda self, goal, **_: plans.append(goal))
-    for pauses, _ in enumerate(looking(task(), Goal(0.0, 0.0)), 1):
-        assert len(plans) == pauses
-    assert len(plans) == pauses > 4
+def test_a_look_pauses_before_it_refines_another_push(looking, monkeypatch):
+    pieces = [0]
+
+    def nothing(*numbers):
+        pieces[0] += 1
+        return math.inf, 0.0, 0.0, 0.0
+
+    monkeypatch.setattr(horizon, 'refine', nothing)  # contact is lost whatever is done
+    before = pauses = 0
+    for _ in looking(task(), Goal(0.0, 0.0)):
+        assert pieces[0] <= before + 1
+        before = pieces[0]
+        pauses += 1
+    assert pauses >= pieces[0] > 4
+
+
+# The contact is far aside. It gets to the goal if it slips, and does not if it sticks.
+ASIDE, BACK = Situation(0.0, 0.1, 0.012, 0.0, 0.0), Goal(0.01, 0.05)
+
+
+def test_a_goal_that_takes_a_friction_which_may_be_is_at_the_limits():
+    sticks, slips = task(now=ASIDE), task(mu_c=0.3, now=ASIDE)
+    assert reach(sticks, BACK).verdict == OUT_OF_REACH
+    assert reach(slips, BACK).verdict == WITH_RESERVE
+    told = reach(replace(sticks, others=(slips.pushed,)), BACK)
+    assert (told.verdict, told.reason) == (AT_THE_LIMITS, '')
+    assert told.plan.arrives
 
 
 def test_between_the_start_and_a_goal_there_is_one_that_can_be_reached():
