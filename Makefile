@@ -54,9 +54,9 @@ soak: $(TEST_READY)
 	PYTHONPATH=test $(BIN)/python -m soaking
 
 placing: $(TEST_READY)
-	mkdir -p out
-	$(BIN)/python benchmarks/placing.py --json out/placing.json
-	$(BIN)/python benchmarks/placing.py --physics mujoco --json out/placing_mujoco.json
+	mkdir -p out && rm -f out/placing.jsonl out/placing_mujoco.jsonl
+	$(BIN)/python benchmarks/placing.py --json out/placing.jsonl
+	$(BIN)/python benchmarks/placing.py --physics mujoco --json out/placing_mujoco.jsonl
 
 lint: $(TEST_READY)
 	$(BIN)/ruff check .

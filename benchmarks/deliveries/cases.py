@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tactile_push import paper
-from tactile_push.control.placing.horizon import Plan, new_plan
+from tactile_push.control.placing.horizon import ROUNDS, pushes, refined
 from tactile_push.control.placing.model import Bounds, Goal, Situation, ahead, follow
 from tactile_push.control.placing.reachability import Task, reach, with_reserve
 from tactile_push.control.placing.search import FAMILIES
@@ -121,10 +121,10 @@ def long_search(task: Task, goal: Goal) -> float:
 
 
 def _length(task: Task, goal: Goal, way: float) -> float:
-    plan: Plan | None = new_plan(
-        (task.now, goal, task.pushed), task.bounds, 0.0, task.belt, FAMILIES
-    )
-    return way + plan.length if plan is not None and plan.arrives else math.nan
+    problem = (task.now, goal, task.pushed), task.bounds, 0.0, task.belt
+    plans = (refined(push, *problem, ROUNDS) for push in pushes(*problem, FAMILIES))
+    lengths = (plan.length for plan in plans if plan is not None and plan.arrives)
+    return way + min(lengths, default=math.nan)
 
 
 def _later(task: Task) -> Iterator[tuple[Task, float]]:

@@ -131,23 +131,24 @@ def row(name: str, outcomes: list[Outcome], within: tuple[float, ...]) -> tuple[
 
 
 def judged(told: list[Outcome], estimated: list[Outcome]) -> list[tuple[str, ...]]:
-    """Return how often goals were refused and promised, and how often wrongly.
+    """Return how often goals were refused, and promised with reserve, and how often wrongly.
 
-    `told` and `estimated` are the same cases, all of them run. An oracle does what the run that is
-    told the truth does, or a long search.
+    `told` and `estimated` are the same cases, all of them run. An oracle does what one of both runs
+    does, or a long search.
     """
-    oracle = {one.seed: one.placed or not math.isnan(one.shortest) for one in told}
-    done = {one.seed: one.placed for one in told}
+    done = {one.seed for one in told if one.placed}
+    by_touch = {one.seed for one in estimated if one.placed}
+    oracle = done | by_touch | {one.seed for one in told if not math.isnan(one.shortest)}
     rows = []
     for name, outcomes, verdict in (
         ('in advance, numbers told', told, 'verdict'),
         ('once committed, as believed', estimated, 'promise'),
     ):
         verdicts = {one.seed: getattr(one, verdict) for one in outcomes if getattr(one, verdict)}
-        can = [seed for seed in verdicts if oracle[seed]]
+        can = oracle & set(verdicts)
         refused = [seed for seed in can if verdicts[seed] == OUT_OF_REACH]
-        promised = [seed for seed in verdicts if verdicts[seed] != OUT_OF_REACH]
-        broken = [seed for seed in promised if not done[seed]]
+        promised = {seed for seed in verdicts if verdicts[seed] == WITH_RESERVE}
+        broken = (promised - by_touch, promised - done, promised - by_touch - done)
         rows.append(
             (
                 name,
@@ -155,7 +156,7 @@ def judged(told: list[Outcome], estimated: list[Outcome]) -> list[tuple[str, ...
                 f'{len(can)}',
                 _share(len(refused), len(can)),
                 f'{len(promised)}',
-                _share(len(broken), len(promised)),
+                *(_share(len(some), len(promised)) for some in broken),
             )
         )
     return rows

@@ -60,17 +60,38 @@ def test_a_row_counts_goals_with_reserve_alone_and_what_is_not_let_go_as_missed(
     assert cells[5:] == ['60', '10', '1.20']
 
 
-def test_promises_and_refusals_are_held_against_what_the_law_does_if_it_is_told_the_truth():
+def test_promises_and_refusals_are_held_against_what_is_done_told_or_by_touch():
     told = [
         outcome(0, ended(0.0)),  # promised and done
         outcome(1, ended(0.0), OUT_OF_REACH),  # refused and done
         outcome(2, ended(0.01), OUT_OF_REACH, shortest=math.nan),  # refused, and rightly
-        outcome(3, ended(0.01), shortest=math.nan),  # promised and not done
+        outcome(3, ended(0.01), shortest=math.nan),  # promised, and done by touch alone
     ]
-    estimated = [outcome(one.seed, None, promise=WITH_RESERVE) for one in told[:3]]
+    ends = [None, None, None, ended(0.0)]
+    estimated = [outcome(seed, end, promise=WITH_RESERVE) for seed, end in enumerate(ends)]
     in_advance, committed = runs.judged(told, estimated)
-    assert in_advance[1:] == ('4', '2', '1 (50.0%)', '2', '1 (50.0%)')
-    assert committed[1:] == ('3', '2', '0 (0.0%)', '3', '1 (33.3%)')
+    assert in_advance[1:4] == ('4', '3', '1 (33.3%)')
+    assert in_advance[4:] == ('2', '1 (50.0%)', '1 (50.0%)', '0 (0.0%)')
+    assert committed[1:4] == ('4', '3', '0 (0.0%)')
+    assert committed[4:] == ('4', '3 (75.0%)', '2 (50.0%)', '1 (25.0%)')
+
+
+def test_runs_are_kept_as_they_end_and_not_made_again(script, tmp_path):
+    file, made = tmp_path / 'runs', []
+
+    def run(seed, group, every):
+        made.append((group.name, seed))
+        return outcome(seed, ended(1e-4) if every else None)
+
+    groups = (script.ESTIMATED, script.GROUPS[-1])
+    with script.workers(1) as pool:
+        script.outcomes_of(pool, groups, range(2), run, file)
+        found = script.outcomes_of(pool, groups, range(3), run, file)
+    names = [group.name for group in groups]
+    assert made == [(name, seed) for seed in range(3) for name in names]
+    assert found[names[0]] == [outcome(seed, ended(1e-4)) for seed in range(3)]
+    assert [one.placement for one in found[names[1]]] == [None] * 3
+    assert len(file.read_text().splitlines()) == len(made)
 
 
 def test_the_cascade_turns_the_object_so_that_it_drifts_to_the_goal():
@@ -103,10 +124,11 @@ def test_a_short_run_of_a_few_groups_prints_and_writes(script, monkeypatch, tmp_
     arguments = ['--runs', '6', '--seed', '2000', '--processes', '1', '--json', str(file)]
     monkeypatch.setattr(sys, 'argv', ['placing', *arguments, '--groups', *groups])
     assert script.main() == 0
-    results = json.loads(file.read_text())
-    assert list(results) == groups
-    assert [one['seed'] for one in results['block']] == [2000, 2001]
-    assert all(one['placement']['stage'] == RELEASED for one in results['state told'])
+    results = [json.loads(line) for line in file.read_text().splitlines()]
+    assert [one['group'] for one in results] == groups * 2
+    assert [one['seed'] for one in results if one['group'] == 'block'] == [2000, 2001]
+    told = [one for one in results if one['group'] == 'state told']
+    assert all(one['placement']['stage'] == RELEASED for one in told)
     printed = capsys.readouterr().out
     assert 'of shortest' in printed
     assert 'of these refused' in printed
