@@ -12,28 +12,37 @@ from tactile_push.control.placing.compiling import compile_placing
 from tactile_push.control.placing.law import PlaceLaw
 from tactile_push.control.placing.model import Goal
 from tactile_push.control.placing.reachability import nearest_goal, reach
+from tactile_push.control.placing.stages import LEARNING
+from tactile_push.pipeline.outlook import ReachOutlook
 from tactile_push.simulation import Rig, paper_block
 from tactile_push.simulation.by_touch import LAG, NOISE, faults_of, sensing_of
 from tactile_push.simulation.placement import place
 
 GOAL = 10.0  # of a control period on one core [ms]
-RUNS = 12
+RUNS = 24
 BELT = 0.3  # [m]
 SHIFT, ANGLE = 0.03, 0.2  # of goals, at the most [m, rad]
 
 
 class TimedLaw(PlaceLaw):
-    """The law, which notes what each control period takes of a core [ms]."""
+    """The law, which notes what it and a look at what is in reach take of a core each time [ms]."""
 
     def __init__(self, *numbers, **more):
         super().__init__(*numbers, **more)
-        self.taken, self.tasks = [], []
+        self.taken, self.looks, self.tasks = [], [], []
+        self.learned = 0  # periods
+        self._outlook = ReachOutlook()
 
     def update(self, theta):
         """Give the push angle, and note what that took."""
         before = time.thread_time()
         phi = super().update(theta)
-        self.taken.append(1e3 * (time.thread_time() - before))
+        between = time.thread_time()
+        if self._belief is not None:
+            self._outlook.look(self, self.goal, self._belief.spread.d)
+        self.taken.append(1e3 * (between - before))
+        self.looks.append(1e3 * (time.thread_time() - between))
+        self.learned += self.stage == LEARNING
         if len(self.taken) in (20, 60):
             self.tasks.append(self.task())
         return phi
@@ -66,9 +75,14 @@ def told(what, taken, goal=None):
 
 
 def test_a_control_period(laws):
-    """Time what the law takes of each."""
-    taken = [one for law in laws for one in law.taken[2:]]
+    """Time what the law takes of each, and what a look at what is in reach adds to it."""
+    taken, looks = (
+        np.concatenate([getattr(law, of)[2:] for law in laws]) for of in ('taken', 'looks')
+    )
     told('a control period of the law', taken, GOAL)
+    learned = np.concatenate([law.taken[2 : law.learned] for law in laws])
+    told('of these, while it learns', learned, GOAL)
+    told('with a look at what is in reach', taken + looks, GOAL)
     assert len(taken) > 50 * RUNS
 
 

@@ -140,7 +140,7 @@ def pressure_of(slider: Slider, tangent: float = 0.0) -> Pressure:
 
     While the object hardly turns it is exact: c^2 is the load's second moment along the way of the
     centre of mass. The growth is the one that is nearest to the exact limit surface, by least
-    squares over `MOTIONS` of the centre about the edge's normal and over `TURNS`. c^2 is then within
+    squares over `MOTIONS` of the centre about the edge's normal and over `TURNS`. It is then within
     15 % on areas and rims, and within 40 % on four corners.
 
     Parameters

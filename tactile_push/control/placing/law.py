@@ -43,7 +43,7 @@ SURE, SURE_ANGLE, KEPT_BACK, KEPT_SHARE = 3.5e-4, math.radians(0.3), 0.01, 0.05
 LAST_TURN, OWN_DOUBT, CLEAR_DRIFT = 0.02, 0.02, 0.2
 # Control periods in a row without a plan that arrives, after which another contact is looked for:
 # by then the planner has looked for all kinds of plans. And how many pass if there is none; picked.
-IN_VAIN, AGAIN = 10, 20
+IN_VAIN, AGAIN = 20, 20
 LARGEST_ANGLE = math.radians(50.0)  # of theta in plans
 
 

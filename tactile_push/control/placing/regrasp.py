@@ -10,8 +10,9 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from tactile_push.control.placing.horizon import Plan, at_once
 from tactile_push.control.placing.model import Bounds, Goal, Situation
-from tactile_push.control.placing.planner import Plan
+from tactile_push.control.placing.planner import LOOK_TRIES
 from tactile_push.control.placing.reachability import Task, with_reserve
 
 TOUCHES = 11  # places on the edge that are tried
@@ -154,7 +155,8 @@ def touches(task: Task, goal: Goal, moves: Moves, room: float) -> Iterator[Touch
             if abs(d - now.d) < NEAREST or left < 0.0 or not fits(way, now, task.bounds, room):
                 continue
             there = Situation(now.x + way.across, now.theta, d, 0.0, 0.0)
-            plan = Task(there, task.pushed, bounds, left).plan(goal)
+            then = Task(there, task.pushed, bounds, left)
+            plan = at_once(then.planning(goal, tries=LOOK_TRIES))
             arrives = plan is not None and plan.arrives
             found |= arrives
             yield Touch(d, way, plan) if plan is not None and arrives else None
