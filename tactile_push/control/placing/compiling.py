@@ -24,6 +24,9 @@ def compile_placing() -> None:
     """Compile now, or load, what the law compiles as it learns, plans and plans again."""
     law = PlaceLaw(Goal(0.0, 0.0), 0.3, paper.BELT_SPEED, paper.CONTROL_PERIOD)
     _push(law, (5e-3, 1e-4, 1e-4))
+    task = law.task()
+    assert task is not None
+    pushes((task.now, law.goal, task.pushed), task.bounds, 0.0, task.belt, 0, roundabout=True)
 
 
 def compile_settling() -> None:
@@ -44,7 +47,6 @@ def _push(law: BelievingLaw, deviations: Sequence[float]) -> None:
         law.believe(Belief(0.0, THETA, 0.0, pushed, (0.3, math.inf), ends, spread))
         law.pass_time(paper.CONTROL_PERIOD)
         law.update(THETA)
-    task = law.task()
-    assert task is not None
-    centre_of_mass(task.now, pushed)
-    pushes((task.now, law.goal, pushed), task.bounds, 0.0, task.belt, 0, roundabout=True)
+    present = law.present()
+    assert present is not None
+    centre_of_mass(present[0], pushed)

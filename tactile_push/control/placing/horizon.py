@@ -181,19 +181,6 @@ def planning(
     return best
 
 
-def new_plan(
-    problem: Problem,
-    bounds: Bounds,
-    least: float,
-    most: float,
-    tries: int = MORE_TRIES,
-    *,
-    roundabout: bool = False,
-) -> Plan | None:
-    """Return what `planning` finds."""
-    return at_once(planning(problem, bounds, least, most, tries, roundabout=roundabout))
-
-
 def at_once(pieces: Generator[None, None, T]) -> T:
     """Return the result of a generator that pauses between pieces of work.
 

@@ -10,7 +10,7 @@ import pytest
 from tactile_push.control.placing import horizon, refinement
 from tactile_push.control.placing.arcs import ARCS, LENGTH
 from tactile_push.control.placing.car import shortest_belt
-from tactile_push.control.placing.horizon import Plan, at_once, new_plan, planning
+from tactile_push.control.placing.horizon import Plan, at_once, planning
 from tactile_push.control.placing.model import (
     Bounds,
     Goal,
@@ -34,7 +34,7 @@ def pushed(mu_c=math.inf, r=R):
 
 
 def planned(start, goal, numbers, bounds, most=0.3, roundabout=False):
-    return new_plan((start, goal, numbers), bounds, 0.0, most, roundabout=roundabout)
+    return at_once(planning((start, goal, numbers), bounds, 0.0, most, roundabout=roundabout))
 
 
 def end(start, push, numbers):
@@ -100,9 +100,7 @@ def test_of_two_plans_one_that_misses_less_is_better_unless_it_takes_much_more_b
     assert exact.merit < near.merit < Plan(longer, 0.0, 0.0, 0.0, 0.0).merit
 
 
-def test_a_plan_in_pieces_is_the_one_that_is_made_at_once_and_no_piece_is_more_than_a_refinement(
-    monkeypatch,
-):
+def test_no_piece_of_a_plan_is_more_than_one_refinement(monkeypatch):
     rounds = []
     refine = horizon.refine
 
@@ -116,5 +114,4 @@ def test_a_plan_in_pieces_is_the_one_that_is_made_at_once_and_no_piece_is_more_t
     pieces = planning(*problem)
     for made, _ in enumerate(pieces, 1):
         assert rounds == [horizon.ROUNDS] * made
-    assert at_once(planning(*problem)).push.tolist() == new_plan(*problem).push.tolist()
-    assert made + 1 <= horizon.MORE_TRIES
+    assert 1 < len(rounds) <= horizon.MORE_TRIES
