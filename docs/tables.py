@@ -94,7 +94,7 @@ def options_table(command: argparse.ArgumentParser) -> str:
     for action in command._actions[1:]:  # the first is --help
         value = formatter._format_args(action, action.dest.upper())
         if not action.metavar:
-            value = '|'.join(action.choices or ())
+            value = '|'.join(map(str, action.choices or ()))
         names = ', '.join(action.option_strings)
         words = f'{names} {value}'.strip() if action.nargs != 0 else names
         meaning = formatter._expand_help(action).removesuffix(' (default: False)')

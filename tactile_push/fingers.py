@@ -39,7 +39,7 @@ FIELDS = {
         **{f'pose.{path}': kind for path, kind in _POSE.items()},
     },
     UNCERTAIN_POSE_TYPE: {**_STAMP, **{f'pose.pose.{path}': kind for path, kind in _POSE.items()}},
-    TWIST_TYPE: {**_STAMP, 'twist.linear.x': NUMBER},
+    TWIST_TYPE: {**_STAMP, 'twist.linear.x': NUMBER, 'twist.linear.y': NUMBER},
     TOPICS[DIAGNOSTICS].type_name: {
         **_STAMP,
         'status[].level': WHOLE,

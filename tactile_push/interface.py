@@ -245,8 +245,9 @@ TOPICS = {
         ),
         Topic(COMMAND, TWIST_TYPE, (PUSH_CONTROLLER,),
             ('the finger', FINGER_SERVO, *PLANTS, PUSH_CONTROLLER),
-            'in `finger_base`: `linear.x` [m/s]; nothing before the first contact, 0 when the '
-            'contact is lost',
+            'in `finger_base`: `linear.x` [m/s], and `linear.y` [m/s] against the belt\'s motion, '
+            '0 but for a finger of two axes; nothing before the first contact, 0 when the contact '
+            'is lost. `finger_servo` keeps a line and refuses any other `linear.y`',
         ),
         Topic(SERVO_COMMANDS, VELOCITIES_TYPE, (FINGER_SERVO,),
             ('the finger', *PLANTS, FINGER_SERVO),
@@ -402,6 +403,7 @@ TOPICS = {
                 Field('edge_angle', 'rad',
                     'true angle of the edge that is pushed or was pushed last'),
                 Field('lifted', '', '1 while the finger is lifted off the object'),
+                Field('along', 'm', 'how far the finger is off its line along the belt'),
             ),
         ),
         Topic(MARKERS, MARKERS_TYPE, PLANTS, (),

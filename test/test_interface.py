@@ -97,7 +97,7 @@ def test_a_frame_may_have_a_prefix_or_be_left_out(frame, expected, found):
 
 @pytest.mark.parametrize('name', ['block', 'stops'])
 def test_types_and_fields_of_recorded_topics(name):
-    newer = {'psi', 'trim', 'v_y', 'apart', 'object_x', 'edge_angle', 'lifted'}
+    newer = {'psi', 'trim', 'v_y', 'apart', 'along', 'object_x', 'edge_angle', 'lifted'}
     seen = topics_as_declared(Path(__file__).parent / 'data' / name, lacking=newer)
     assert {TACTILE, CONTACT, GEOMETRY_STATE, CONTROLLER_STATE} <= seen
 

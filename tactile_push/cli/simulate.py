@@ -62,6 +62,14 @@ def add(commands: Commands) -> None:
         metavar='DEG',
         help='angle that the edge shall have, for the laws place and settle',
     )
+    _optional(
+        option,
+        '--axes',
+        type=int,
+        choices=(1, 2),
+        help='how many ways the finger can move, for the law place; with 2 it touches the object '
+        'elsewhere where no push from the first contact leads to the goal',
+    )
     option('--steps', type=steps, default=600, metavar='N', help='control periods of 0.1 s')
     option(
         '--open-loop',
@@ -87,7 +95,7 @@ def add(commands: Commands) -> None:
 
 
 def _optional(option: Callable[..., Any], name: str, *, help: str, **how: Any) -> None:
-    """Add an option of law (18), of which it has to be known whether it was given."""
+    """Add an option of some laws, of which it has to be known whether it was given."""
     default = DEFAULTS[name.removeprefix('--').replace('-', '_')]
     option(name, default=argparse.SUPPRESS, help=f'{help} (default: {default})', **how)
 

@@ -17,13 +17,15 @@ if TYPE_CHECKING:
     from tactile_push.simulation import RigConfig, Rollout
     from tactile_push.simulation.placed_run import PlacedRun
 
-# Options of law (18), with their defaults, and goals.
+# Options of law (18) and of the one that places, with their defaults, and goals.
+AXES = 'axes'
 DEFAULTS = {
     'kp': KP,
     'kd': KD,
     'theta_desired_deg': math.degrees(THETA_DESIRED),
     'phi0_deg': 90.0,
     'open_loop': False,
+    AXES: 1,
 }
 X_GOAL, THETA_GOAL = 'x_goal_mm', 'theta_goal_deg'
 
@@ -109,12 +111,13 @@ def _place(options: argparse.Namespace, config: 'RigConfig') -> Simulated:
     from tactile_push.simulation.placed_run import placed_run
 
     goal = Goal(options.x_goal_mm / 1000.0, math.radians(options.theta_goal_deg))
-    done = placed_run(config, goal, options.steps)
+    done = placed_run(config, goal, options.steps, axes=options.axes)
     run, placed = done.run, done.placement
     off = f'{1000.0 * placed.x_error:.2f} mm, {math.degrees(placed.theta_error):.2f}°'
     belt, learned = 1000.0 * placed.belt, 1000.0 * placed.learned
     told = asdict(placed)
     del told['end']  # which the run has
+    told |= {'regrasps': done.regrasps}
     return Simulated(
         run,
         len(run.theta) - 1 if run.end == 'done' else None,
@@ -124,6 +127,7 @@ def _place(options: argparse.Namespace, config: 'RigConfig') -> Simulated:
             _x_row(run),
             f'error      {off}',
             f'belt       {belt:.1f} mm, {learned:.1f} mm of it to learn where the finger touches',
+            *([f'regrasps   {done.regrasps}'] if done.regrasps else []),
         ),
         {'finger': done.finger.tolist(), 'goal': goal._asdict(), **told},
         lambda file: _draw_placed(done, config, f'off by {off}', file),
@@ -185,8 +189,8 @@ def _x_row(run: 'Rollout') -> str:
 
 
 LAWS = {
-    'push': Law(_push, options=tuple(DEFAULTS)),
-    'place': Law(_place, (X_GOAL, THETA_GOAL)),
+    'push': Law(_push, options=tuple(name for name in DEFAULTS if name != AXES)),
+    'place': Law(_place, (X_GOAL, THETA_GOAL), (AXES,)),
     'steer': Law(_steer, (X_GOAL,), ('kp', 'kd')),
     'settle': Law(_settle, (THETA_GOAL,)),
 }

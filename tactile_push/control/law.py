@@ -81,8 +81,8 @@ class PushLaw:
         self.phi_max = phi_max
         self.trim = 0.0  # added to theta_desired [rad], see `Steadying`
         self.phi = AHEAD
-        #: Velocity of the finger across and along the belt in place of a push, while it is off the
-        #: object on purpose [m/s]; law (18) never is. It is what the finger gets, as `phi` is.
+        #: Velocity of the finger across and along the belt in place of a push [m/s], while it is to
+        #: be off the object; law (18) never has one. It is what the finger gets, as `phi` is.
         self.away: tuple[float, float] | None = None
         self._theta_before: float | None = None
 
@@ -159,6 +159,11 @@ class PushLaw:
     def rests(self) -> str:
         """Why the law does not want to push, one of `STOP_REASONS`; law (18) always does."""
         return NO_REASON
+
+    @property
+    def apart(self) -> bool:
+        """Whether the finger is off the object on purpose and will touch it again."""
+        return False
 
     @property
     def aim(self) -> float:

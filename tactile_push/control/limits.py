@@ -5,6 +5,8 @@
 import math
 from dataclasses import dataclass
 
+RETREAT = 0.04  # how far a finger of two axes may go with the belt [m]; picked
+
 
 @dataclass
 class Limits:

@@ -382,5 +382,5 @@ class PushControl:
             self._pole.value,
             self.law.trim,
             self._v_y,
-            self.law.away is not None,
+            self.law.apart,
         )

@@ -106,8 +106,9 @@ class FingerServo(ManagedNode):
         return Moment(self._time.of(stamp), steady)
 
     def _on_command(self, message: TwistStamped) -> None:
-        frame, v_x = message.header.frame_id, message.twist.linear.x
-        self._counted[self._steps.command(stamp_of(message), frame, v_x, self._now())] += 1
+        frame, velocity, stamp = message.header.frame_id, message.twist.linear, stamp_of(message)
+        kind = self._steps.command(stamp, frame, velocity.x, self._now(), velocity.y)
+        self._counted[kind] += 1
         self._act()
 
     def _on_joint_states(self, message: JointState) -> None:

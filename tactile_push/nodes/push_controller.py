@@ -87,7 +87,7 @@ class PushController(ManagedNode):
         self._told_growth = False
         self._tick: Tick | None = None
         self._ticked_at = -math.inf  # on the steady clock [s]
-        self._sent: deque[tuple[int, int, float]] = deque(maxlen=REMEMBERED)
+        self._sent: deque[tuple[int, int, float, float]] = deque(maxlen=REMEMBERED)
         self._counted: Counter[str] = Counter()
         self._clock_jumped = self.create_guard_condition(self._after_clock_jump)
         self._due: Time | None = None  # of a tick that waits for contacts to be heard
@@ -214,7 +214,8 @@ class PushController(ManagedNode):
         self._counted[self._steps.joint_states(stamp, message.name, message.position)] += 1
 
     def _on_command(self, message: TwistStamped) -> None:
-        if (*stamp_of(message), message.twist.linear.x) not in self._sent:
+        velocity = message.twist.linear
+        if (*stamp_of(message), velocity.x, velocity.y) not in self._sent:
             self._counted['commands of another node'] += 1
             self._control.notice_another_command()
 
@@ -261,7 +262,7 @@ class PushController(ManagedNode):
 
     def _publish(self, stamp: Time, tick: Tick) -> None:
         if tick.v_x is not None:
-            self._sent.append((stamp.sec, stamp.nanosec, tick.v_x))
+            self._sent.append((stamp.sec, stamp.nanosec, tick.v_x, tick.v_y))
         for topic, fields in self._steps.outputs((stamp.sec, stamp.nanosec), tick):
             publish(self._outputs[topic], fields)
 
@@ -296,6 +297,7 @@ class PushController(ManagedNode):
             'trim [rad]': tick.trim,
             'phi [rad]': tick.phi,
             'v_x [m/s]': tick.v_x,
+            'v_y [m/s]': tick.v_y,
             'since last contact [s]': tick.silence,
             'finger x [m]': tick.finger_x,
             'drift grows by e in [s]': outlook.e_fold,

@@ -9,6 +9,7 @@ from typing import Any
 
 from tactile_push import paper
 from tactile_push.control import Limits, PushControl, PushLaw, Steadying, Steering
+from tactile_push.control.limits import RETREAT
 from tactile_push.interface import LAWS, PLACE, PUSH, SETTLE, STEER
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
@@ -50,6 +51,13 @@ class PushControllerParameters(NodeParameters):
         'what the finger takes from place/release until the object is free', 0.0, 5.0,
         read_only=True)
     finger_lag: float = shared.finger_lag
+    axes: int = parameter(1, '',
+        'how many ways the finger can move: 1 across the belt; 2 along it, too, so that law place '
+        'leaves the object and touches it elsewhere where no push from the first contact reaches '
+        'the goal', 1, 2, read_only=True)
+    retreat_max: float = parameter(RETREAT, 'm',
+        'how far a finger of two axes may go with the belt, from where it is at the activation',
+        0.0, 1.0, read_only=True)
     phi_min: float = parameter(paper.PHI_MIN, 'rad',
         'smallest push angle', 0.1, 1.57, read_only=True)
     phi_max: float = parameter(paper.PHI_MAX, 'rad',
@@ -98,7 +106,11 @@ def make_control(p: PushControllerParameters) -> PushControl:
     check_fit(p)
     if not len(p.joint_names) == len(set(p.joint_names)) in (2, 3):
         raise ValueError(f'joint_names: expected two or three different names, got {p.joint_names}')
-    limits = Limits(workspace_min=p.workspace_min, workspace_max=p.workspace_max)
+    limits = Limits(
+        workspace_min=p.workspace_min,
+        workspace_max=p.workspace_max,
+        retreat_max=p.retreat_max if p.axes == 2 else 0.0,
+    )
     law = make_law(p)
     steadying = make_steadying(law, p)
     control = PushControl(law, p.belt_speed, 1.0 / p.control_rate, limits, steadying)
@@ -140,11 +152,14 @@ def _make_placing(push: PushControl, p: PushControllerParameters, seconds: Secon
     # Which load the compiler.
     from tactile_push.control.placing.compiling import compile_placing
     from tactile_push.control.placing.law import NOWHERE, PlaceLaw
+    from tactile_push.control.placing.regrasp import Moves
     from tactile_push.pipeline.placing import Placing
 
     law = PlaceLaw(
         *(NOWHERE, p.belt_length, p.belt_speed, 1.0 / p.control_rate),
         delay=p.release_delay,
+        moves=Moves(p.max_speed, p.max_acceleration, p.belt_speed) if p.axes == 2 else None,
+        room=p.retreat_max,
         **_bounds(p),
     )
     compile_placing()
@@ -192,6 +207,11 @@ def check_fit(p: PushControllerParameters) -> None:
         raise ValueError(f'use_joint_states: expected true with law {p.law}, got false')
     if p.law != PUSH and p.steadying_max > 0.0:
         raise ValueError(f'steadying_max: expected 0 with law {p.law}, got {p.steadying_max:g}')
+    if p.axes == 2 and not p.max_speed > p.belt_speed:
+        raise ValueError(
+            f'max_speed: expected more than belt_speed, {p.belt_speed:g} m/s, with 2 axes, '
+            f'got {p.max_speed:g}'
+        )
     most = STEEPEST - p.steadying_max
     if not abs(p.theta_desired) <= most:
         raise ValueError(

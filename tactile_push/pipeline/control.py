@@ -187,7 +187,7 @@ class Control:
         if self.placing is not None:
             yield from self.placing.outputs(stamp)
         if tick.v_x is not None:
-            yield COMMAND, command_fields(stamp, tick.v_x)
+            yield COMMAND, command_fields(stamp, tick.v_x, tick.v_y)
         yield CONTROLLER_STATE, joint_state_fields(stamp, tick_values(tick, self.push.law))
 
 

@@ -66,9 +66,9 @@ def place_goal_fields(stamp: Stamp, x: float, theta: float) -> Fields:
     return {'header': _header(stamp, FINGER_BASE), 'pose': _pose(x, 0.0, theta)}
 
 
-def command_fields(stamp: Stamp, v_x: float) -> Fields:
-    """Return the fields of a TwistStamped: the finger's velocity across the belt [m/s]."""
-    return {'header': _header(stamp, FINGER_BASE), 'twist': {'linear': {'x': v_x}}}
+def command_fields(stamp: Stamp, v_x: float, v_y: float = 0.0) -> Fields:
+    """Return the fields of a TwistStamped: the finger's velocity across and along [m/s]."""
+    return {'header': _header(stamp, FINGER_BASE), 'twist': {'linear': {'x': v_x, 'y': v_y}}}
 
 
 def velocities_fields(velocities: Sequence[float]) -> Fields:

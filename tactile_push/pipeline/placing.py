@@ -27,6 +27,7 @@ from tactile_push.control.placing.stages import (
     OUTSIDE_WORKSPACE,
     PLACING,
     REASONS,
+    REGRASPING,
     RELEASED,
     VERDICTS,
 )
@@ -36,6 +37,8 @@ from tactile_push.pipeline.believing import OLDEST, Believing
 from tactile_push.pipeline.messages import Output
 from tactile_push.pipeline.outlook import ReachOutlook
 from tactile_push.pipeline.stamps import Seconds, Stamp
+
+PUSHES = (LEARNING, PLACING, REGRASPING)  # stages in which a goal is served and nothing decided
 
 
 class Placing(Believing):
@@ -119,7 +122,10 @@ class Placing(Believing):
         if self._contradicts:
             law.end(CONTRADICTED)
             return
-        if is_new and self._belief is not None:
+        if law.stage == REGRASPING:  # what was believed is about the contact that is left
+            self._belief, self._unknown = None, 0
+            self.reach = ReachOutlook()
+        elif is_new and self._belief is not None:
             self._unknown = 0
         elif self._push.state == PUSHING:
             self._unknown += 1
@@ -137,7 +143,8 @@ class Placing(Believing):
         at, values = self._heard
         forgotten = values.get('readings', 0.0) == 0.0 or now - at > OLDEST * self._push.period
         silent = tick.silence > self._push.limits.contact_timeout
-        if self._next is not None and silent and forgotten:  # the next object can be no other
+        # The next object can be no other, and the finger is where it takes objects.
+        if self._next is not None and silent and forgotten and not self._law.returns:
             self._lifted = False
             self._start(self._next)
 
@@ -188,12 +195,12 @@ class Placing(Believing):
     @property
     def _unfinished(self) -> bool:
         """Whether a goal is served and the object not let go."""
-        return self._law.stage in (LEARNING, PLACING) or self._waits_to_tell
+        return self._law.stage in PUSHES or self._waits_to_tell
 
     @property
     def _acts(self) -> bool:
-        """Whether the object is pushed to a goal."""
-        return self._law.began and self._law.stage in (LEARNING, PLACING)
+        """Whether the object is brought to a goal."""
+        return self._law.began and self._law.stage in PUSHES
 
     @property
     def _waits_to_tell(self) -> bool:

@@ -56,7 +56,7 @@ class Servo:
         """Why the last joint states or the last command were of no use; empty if they were."""
         return self._joints.trouble or self._strange[JOINT_STATES] or self._strange[COMMAND]
 
-    def command(self, stamp: Stamp, frame: str, v_x: float, now: Moment) -> str:
+    def command(self, stamp: Stamp, frame: str, v_x: float, now: Moment, v_y: float = 0.0) -> str:
         """Take a command.
 
         Parameters
@@ -66,6 +66,9 @@ class Servo:
             the velocity across the belt [m/s].
         now : Moment
             When it arrived.
+        v_y : float, optional
+            Velocity along the belt that it asks for [m/s]. The disk is kept on a line across the
+            belt, so that any but 0 makes the command implausible.
 
         Returns
         -------
@@ -75,7 +78,7 @@ class Servo:
         at = now.time if stamp == UNDATED else self._seconds(*stamp)
         if self._is_strange(COMMAND, now.time - at, self.servo.limits.command_timeout):
             return OLD_COMMAND
-        if not is_frame(frame, FINGER_BASE):
+        if not is_frame(frame, FINGER_BASE) or v_y != 0.0:
             v_x = math.nan
         self._command_at = at
         return COMMANDED if self.servo.command(v_x, now.steady) else IMPLAUSIBLE

@@ -21,6 +21,14 @@ class ReplayedTick(NamedTuple):
     v_x_recorded: float  #: what was commanded then [m/s]
     state: str  #: what the controller does now, one of `control.STATES`
     stop_reason: str  #: one of `control.STOP_REASONS`
+    v_y: float = 0.0  #: what is commanded along the belt now [m/s]
+    v_y_recorded: float = 0.0  #: the same then [m/s]
+
+    @property
+    def differs(self) -> bool:
+        """Whether the command is not to the bit what was commanded."""
+        none = math.isnan(self.v_x) and math.isnan(self.v_x_recorded)
+        return self.v_y != self.v_y_recorded or (self.v_x != self.v_x_recorded and not none)
 
 
 class SensedTick(NamedTuple):
@@ -84,19 +92,14 @@ class Comparison:
                 v_x_recorded=_number(recorded.v_x if recorded else None),
                 state=tick.state,
                 stop_reason=tick.stop_reason,
+                v_y=tick.v_y,
+                v_y_recorded=recorded.v_y if recorded else math.nan,
             )
         )
 
     def different(self) -> list[ReplayedTick]:
         """Return the control periods whose command is not to the bit what was commanded."""
-        if not self.recorded:
-            return []
-        return [
-            tick
-            for tick in self.ticks
-            if tick.v_x != tick.v_x_recorded
-            and not (math.isnan(tick.v_x) and math.isnan(tick.v_x_recorded))
-        ]
+        return [tick for tick in self.ticks if tick.differs] if self.recorded else []
 
     def as_json(self) -> dict[str, object]:
         """Return plain values in SI units, None where there is no number."""

@@ -17,6 +17,7 @@ from tactile_push.control.placing.stages import (
     NO_GOAL,
     PLACING,
     REASONS,
+    REGRASPING,
     RELEASED,
     SETTLES,
     STAGES,
@@ -26,7 +27,7 @@ from tactile_push.report.columns import Column, Table
 
 # How a goal ends beside the law's own `ENDS`.
 PREEMPTED, OPEN = 'preempted', 'not ended'
-PUSHES = (LEARNING, PLACING, LETTING_GO)
+SERVES = (LEARNING, PLACING, REGRASPING, LETTING_GO)
 OF_SETTLING = tuple(float(STAGES.index(stage)) for stage in SETTLES)  # whose goals do not end
 FIELDS = ('stage', 'goals', 'goal_x', 'goal_theta')  # without which nothing is told
 TRUTH = ('lifted', 'object_x', 'edge_angle')
@@ -48,6 +49,7 @@ class Placing:
     verdict: str
     reason: str  # what forbade it, one of `REASONS`
     belt: float | None  # that was used [m]
+    regrasps: int  # how often the finger has touched the object elsewhere
     miss: tuple[float, float] | None  # errors that the law expected at last [m, rad]
     # When an object was let go [s], and its x [m] and theta [rad] then
     freed: float | None
@@ -109,8 +111,9 @@ def way_of(placing: Placing, truth: Table, poses: Table) -> Way | None:
     object_x, travel, theta = (
         truth[name][at][kept] for name in ('object_x', 'belt_travel', 'edge_angle')
     )
-    finger = np.stack([object_x - x, travel], axis=1)
-    return Way(finger, np.stack([object_x, travel + y, theta], axis=1), float(theta[0] - yaw[0]))
+    finger_y = travel + truth.get('along', np.zeros(len(truth['time'])))[at][kept]
+    finger = np.stack([object_x - x, finger_y], axis=1)
+    return Way(finger, np.stack([object_x, finger_y + y, theta], axis=1), float(theta[0] - yaw[0]))
 
 
 def goal_cells(found: Sequence[Placing]) -> list[tuple[str, ...]]:
@@ -122,7 +125,7 @@ def goal_cells(found: Sequence[Placing]) -> list[tuple[str, ...]]:
             _error(one),
             '' if one.belt is None else f'{one.belt * MILLIMETRES:.0f} mm',
             f'{one.verdict}: {one.reason}' if one.reason else one.verdict,
-            one.stage,
+            _end(one),
         )
         for one in found
     ]
@@ -151,7 +154,10 @@ def _placing(rows: Table, truth: Table, until: float) -> Placing:
         stage=stage,
         verdict=VERDICTS[int(looks[look])] if len(told) else VERDICTS[0],
         reason=REASONS[int(reason)] if 0 <= reason < len(REASONS) else '',
-        belt=_belt(rows, [stage in PUSHES for stage in stages], last),
+        belt=_belt(rows, [stage in SERVES for stage in stages], last),
+        regrasps=sum(
+            after == REGRASPING != before for before, after in pairwise(stages[: last + 1])
+        ),
         miss=_miss(rows, last),
         freed=None if freed is None else float(truth['time'][freed]),
         reached=None
@@ -160,10 +166,17 @@ def _placing(rows: Table, truth: Table, until: float) -> Placing:
     )
 
 
-def _belt(rows: Table, pushes: Sequence[bool], last: int) -> float | None:
+def _end(one: Placing) -> str:
+    """Return how a goal ended, and how often the object was touched anew for it."""
+    if not one.regrasps:
+        return one.stage
+    return f'{one.stage}, {one.regrasps} regrasp{"s" if one.regrasps > 1 else ""}'
+
+
+def _belt(rows: Table, serves: Sequence[bool], last: int) -> float | None:
     """Return the belt from the first push for a goal to its end [m]."""
-    left = rows.get('belt_left', np.full(len(pushes), math.nan))[: last + 1]
-    first = next((k for k, push in enumerate(pushes) if push), last)
+    left = rows.get('belt_left', np.full(len(serves), math.nan))[: last + 1]
+    first = next((k for k, serve in enumerate(serves) if serve), last)
     left = left[first:][np.isfinite(left[first:])]
     return float(left[0] - left[-1]) if len(left) else None
 

@@ -20,7 +20,7 @@ NOT_FINITE, OTHER_SIZE = 'commands not finite', 'commands of another size'
 
 
 class CommandedVelocity:
-    """A finger that follows a velocity across the belt, and stands when none comes any more.
+    """A finger that follows a velocity, and stands when none comes any more.
 
     Parameters
     ----------
@@ -32,7 +32,8 @@ class CommandedVelocity:
         self._rig = rig
         self._timeout = timeout
         self._since: float | None = None  # when the last command came [s]
-        self.v_x = 0.0  #: what is commanded [m/s]
+        self.v_x = 0.0  #: what is commanded across the belt [m/s]
+        self.v_y = 0.0  #: the same along it, against its motion [m/s]
 
     @property
     def started(self) -> bool:
@@ -43,17 +44,18 @@ class CommandedVelocity:
         """Return whether the last command is too old at a time [s]."""
         return self._since is not None and now - self._since >= self._timeout
 
-    def take(self, v_x: float, fastest: float, now: float) -> str:
-        """Take a command [m/s] at a time [s], bound it, and return what it was."""
-        if not math.isfinite(v_x):
-            self.v_x = 0.0  # whoever sends this is not to be trusted with a moving finger
+    def take(self, v_x: float, v_y: float, fastest: float, now: float) -> str:
+        """Take a command [m/s] at a time [s], bound both ways, and return what it was."""
+        if not (math.isfinite(v_x) and math.isfinite(v_y)):
+            self.expire()  # whoever sends this is not to be trusted with a moving finger
             return NOT_FINITE
-        self.v_x, self._since = min(max(v_x, -fastest), fastest), now
-        return OBEYED if self.v_x == v_x else TOO_FAST
+        self.v_x, self.v_y = (min(max(one, -fastest), fastest) for one in (v_x, v_y))
+        self._since = now
+        return OBEYED if (self.v_x, self.v_y) == (v_x, v_y) else TOO_FAST
 
     def expire(self) -> None:
         """Stand, because the next command is overdue."""
-        self.v_x = 0.0
+        self.v_x = self.v_y = 0.0
 
     def move(self, duration: float, now: float, presses: bool = False) -> None:
         """Move for a while [s] up to a time [s].
@@ -61,8 +63,8 @@ class CommandedVelocity:
         `presses` lets the belt run before the first command, too.
         """
         if self.overdue(now):
-            self.v_x = 0.0
-        self._rig.step(self.v_x, duration, self.started or presses)
+            self.expire()
+        self._rig.step(self.v_x, duration, self.started or presses, self.v_y)
 
 
 class CommandedJoints:

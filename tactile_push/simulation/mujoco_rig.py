@@ -173,7 +173,12 @@ class MujocoRig:
     @property
     def finger_y(self) -> float:
         """The same along the belt, where the finger moves at +v_y [m]."""
-        return float(self._data.qpos[BASE]) + self._links.y - self._home.y
+        return float(self._data.qpos[BASE]) + self.along
+
+    @property
+    def along(self) -> float:
+        """How far it is along the belt from its line at the start [m]."""
+        return self._links.y - self._home.y
 
     @property
     def belt_travel(self) -> float:

@@ -38,4 +38,5 @@ def true_values(rig: 'Rig | MujocoRig', v_x_commanded: float) -> dict[str, float
         'object_x': rig.finger_pose.x + rig.object_in_finger_disk.x,
         'edge_angle': rig.theta,
         'lifted': float(rig.lifted),
+        'along': rig.along,
     }

@@ -43,13 +43,14 @@ def placed(monkeypatch):
     """Let every object be placed in two control periods; return what was asked for."""
     asked = []
 
-    def run(config, goal, steps):
+    def run(config, goal, steps, *, axes):
         asked.append((config.theta, config.d, goal, steps))
         columns = [[0.3, 0.2, 0.1], [1.5, 1.6, 1.6], [0.003, 0.002, 0.001]]
         columns += [[-0.02, -0.01, 0.0022], [0.037, 0.0375, 0.038]]
         history = Rollout(*np.array(columns), np.array([0, 0, 0]), 'done')
         finger = np.array([[0.0, 0.0], [0.01, 0.0005], [0.02, 0.001]])
-        return PlacedRun(history, finger, goal, Placement('released', '', 2e-4, 0.001, 0.09, 0.02))
+        placed = Placement('released', '', 2e-4, 0.001, 0.09, 0.02)
+        return PlacedRun(history, finger, goal, placed, axes - 1)
 
     monkeypatch.setattr('tactile_push.simulation.placed_run.placed_run', run)
     return asked
@@ -77,6 +78,14 @@ def test_what_is_placed_is_told_in_lines(placed, command):
     assert rows['x'] == '-20.00 mm -> 2.20 mm'
     assert rows['error'] == '0.20 mm, 0.06°'
     assert rows['belt'] == '90.0 mm, 20.0 mm of it to learn where the finger touches'
+
+
+def test_a_finger_of_two_axes_tells_how_often_it_touched_anew(placed, command):
+    asked = ('simulate', *PLACE, 2, '--theta-goal-deg', -6)
+    for axes, rows in ((1, []), (2, ['1'])):
+        status, out, _ = command(*asked, '--axes', axes)
+        assert status == 0
+        assert [line.split()[1] for line in out.splitlines() if line.startswith('regrasps')] == rows
 
 
 def test_an_object_that_is_not_placed_is_a_failure(command):
@@ -127,6 +136,7 @@ def test_the_gains_of_law_18_are_those_of_steer(simulated, monkeypatch):
         ((*STEER, 0, '--theta-desired-deg', -10), '--theta-desired-deg: expected --law push, got '),
         ((*STEER, 0, '--phi0-deg', 90), '--phi0-deg: expected --law push, got steer'),
         ((*STEER, 0, '--open-loop'), '--open-loop: expected --law push, got steer'),
+        (('--axes', 2), '--axes: expected --law place, got push'),
         ((*SETTLE, 0, '--kd', 5), '--kd: expected --law push or steer, got settle'),
         (('--x-goal-mm', 0), '--x-goal-mm: expected --law'),
         (('--theta-goal-deg', 0), '--theta-goal-deg: expected --law'),

@@ -1018,6 +1018,10 @@ class Away(PushLaw):
         super().__init__(0.5, 2.0, 0.0)
         self.wanted = list(wanted)
 
+    @property
+    def apart(self):
+        return self.away is not None
+
     def go_on(self):
         self.away = self.wanted.pop(0) if self.wanted else None
 

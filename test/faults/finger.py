@@ -130,6 +130,7 @@ class Finger(Rig):
             parameters |= self._sensor.plant
             # Balanced, so that an object that is not controlled for a while stays in reach.
             parameters |= {'theta_initial': 0.0, 'd_initial': 0.0}
+            parameters |= dict(self._setup.plant)
             if self._setup.servo:
                 parameters['commands'] = JOINT_VELOCITIES
             if self._setup.relay:
@@ -288,7 +289,8 @@ class Finger(Rig):
 
     def _velocities(self, command: bool) -> list[tuple[float, float]]:
         if command:
-            return [(at, m.twist.linear.x) for at, m in self.commands.timed(-100)]
+            heard = [(at, m.twist.linear) for at, m in self.commands.timed(-100)]
+            return [(at, math.hypot(velocity.x, velocity.y)) for at, velocity in heard]
         return [(at, field(m, 'v_x')) for at, m in self.truth.timed(-500)]
 
     def reasons_since(self, at: float) -> set[str]:
@@ -321,7 +323,9 @@ class Finger(Rig):
         """Watch that the controller does not resume on its own, though contacts come again."""
         said = len(self.commands)
         self.observer.spin(seconds)
-        moving = [h for h in self.commands[said:] if h.twist.linear.x != 0.0]
+        moving = [
+            h for h in self.commands[said:] if (h.twist.linear.x, h.twist.linear.y) != (0.0, 0.0)
+        ]
         if moving or self.reason != reason:
             raise BrokenPromiseError(f'resumed on its own from {reason}')
 

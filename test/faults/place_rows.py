@@ -13,7 +13,7 @@ from lifecycle_msgs.msg import Transition
 from std_srvs.srv import Trigger
 
 from tactile_push.control.placing import REFUSALS
-from tactile_push.interface import ACTIVE_SENSING, CANCEL, PLACE, SETTLE
+from tactile_push.interface import ACTIVE_SENSING, CANCEL, JOINT_STATES, PLACE, SETTLE
 from tactile_push.tactile import NO_CONTACT
 from tactile_push.testing import field
 
@@ -24,6 +24,15 @@ from .topic_rows import command
 
 PLACES = Setup(law=PLACE)
 SETTLES = Setup(law=SETTLE)
+# Pushed so far to the right at this angle, an object goes to the left all the way.
+TURNED, OFF = 0.35, 0.015  # [rad, m]
+REGRASPS = Setup(
+    law=PLACE,
+    controller=(('axes', 2),),
+    sensing=(('edge', 0), ('l_share', 0.01), ('noise', 0.003), ('tilt_max', 0.0)),
+    plant=(('theta_initial', TURNED), ('d_initial', 0.012)),
+)
+JOINTLESS = replace(REGRASPS, relay=JOINT_STATES)
 SHORT = Setup(law=PLACE, controller=(('belt_length', 0.01),))
 # Turns a third as fast as the object that is pushed.
 DEEP = [-0.025, -0.1, 0.025, -0.1, 0.025, 0.1, -0.025, 0.1]
@@ -182,6 +191,59 @@ def sensing_killed(bench: Bench) -> None:
     with _nothing_let_go(bench) as finger:
         bench.stopped(finger.kill(ACTIVE_SENSING))
         _ends(finger, 'nothing known')
+
+
+@contextmanager
+def _off_the_object(bench: Bench) -> Iterator[Finger]:
+    """Give a goal that only a second contact leads to, and wait until the finger goes there."""
+    with _nothing_let_go(bench) as finger:
+        start = field(finger.truth[0], 'object_x')
+        finger.give_goal(goal(start + OFF, TURNED))
+        finger.expect_stage('regrasping', SLOW)
+        finger.wait_until_moving()  # across
+        expect(finger.stage == 'regrasping', f'is {finger.stage} already')
+        yield finger
+
+
+@fault('contact lost on purpose', setup=REGRASPS)
+def contact_lost_on_purpose(bench: Bench) -> None:
+    """No stop; the object is touched elsewhere, and what is known of it stays."""
+    begin = time.monotonic()
+    with _off_the_object(bench) as finger:
+        finger.expect_stage('placing', SLOW)
+        stopped = finger.reasons_since(begin) - {''}
+        expect(not stopped, f'stopped: {", ".join(stopped)}')
+
+
+@fault('contact that does not come back', setup=REGRASPS)
+def contact_that_does_not_come_back(bench: Bench) -> None:
+    """Object lost; rests though the contact is back; nothing is let go."""
+    with _off_the_object(bench) as finger:
+        finger.proxy.alter = lambda sentence: replace(sentence, reading=NO_CONTACT)
+        finger.expect_stage('object lost', SLOW)
+        finger.proxy.mend()
+        _ends(finger, 'object lost')
+
+
+@fault('goal cancelled off the object', ASKED, setup=REGRASPS)
+def goal_cancelled_off_the_object(bench: Bench) -> None:
+    """Rests until the next goal, both ways."""
+    with _off_the_object(bench) as finger:
+        at = time.monotonic()
+        _cancel(bench)
+        bench.stopped(at)
+        _ends(finger, 'cancelled')
+
+
+@fault('joint states missing off the object', SILENT, setup=JOINTLESS)
+def joint_states_missing_off_the_object(bench: Bench) -> None:
+    """Finger position unknown; then the object is lost; nothing is let go."""
+    with _off_the_object(bench) as finger:
+        at = time.monotonic()
+        finger.relay.alter = lambda message: None
+        bench.stopped(at)
+        finger.relay.mend()
+        finger.expect_stage('object lost')
 
 
 @fault('contact lost while settling', SILENT, setup=SETTLES)

@@ -44,8 +44,8 @@ class Setup:
     law : str, optional
         The controller's law, one of `interface.LAWS`; `active_sensing` runs beside one that needs
         it.
-    controller, sensing : tuple of (str, object), optional
-        More parameters of `push_controller` and of `active_sensing`.
+    controller, sensing, plant : tuple of (str, object), optional
+        More parameters of `push_controller`, of `active_sensing` and of the plant.
     """
 
     fingers: tuple[str, ...] = ('',)
@@ -56,6 +56,7 @@ class Setup:
     law: str = PUSH
     controller: tuple[tuple[str, Any], ...] = ()
     sensing: tuple[tuple[str, Any], ...] = ()
+    plant: tuple[tuple[str, Any], ...] = ()
 
 
 PLAIN = Setup()

@@ -346,6 +346,8 @@ def test_every_row_has_a_name_of_its_own_and_a_promise():
         'goal not finite',
         'goal cancelled',
         'contact lost while placing',
+        'contact lost on purpose',
+        'contact that does not come back',
         'another object while placing',
         'active_sensing killed while placing',
     )

@@ -127,6 +127,18 @@ def test_the_law_that_places_gets_its_numbers():
     assert 1.0 / math.tan(law.phi_max) == pytest.approx(-0.5)
 
 
+def test_only_a_finger_of_two_axes_goes_back():
+    one = PushControllerParameters(law=PLACE, retreat_max=0.03)
+    two = replace(one, axes=2)
+    assert [make_control(p).limits.retreat_max for p in (one, two)] == [0.0, 0.03]
+
+
+def test_a_finger_of_two_axes_has_to_be_faster_than_the_belt():
+    make_control(PushControllerParameters(belt_speed=0.03))
+    with pytest.raises(ValueError, match='max_speed: expected more than belt_speed, 0.03 m/s'):
+        make_control(PushControllerParameters(belt_speed=0.03, axes=2))
+
+
 def test_the_law_that_settles_gets_its_numbers_and_those_of_law_18():
     values = PushControllerParameters(
         law=SETTLE, kp=0.1, kd=2.0, theta_desired=0.3, belt_speed=0.02, max_speed=0.01

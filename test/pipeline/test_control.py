@@ -164,7 +164,7 @@ def test_command_comes_before_the_state_with_the_stamp_of_the_period(control):
     assert (command_topic, state_topic) == (COMMAND, CONTROLLER_STATE)
     stamp = {'sec': 1, 'nanosec': 7}
     assert command['header'] == {'stamp': stamp, 'frame_id': FINGER_BASE}
-    assert command['twist'] == {'linear': {'x': tick.v_x}}
+    assert command['twist'] == {'linear': {'x': tick.v_x, 'y': 0.0}}
     assert state['header']['stamp'] == stamp
     values = dict(zip(state['name'], state['position'], strict=True))
     assert (values['theta'], values['v_x']) == (0.2, tick.v_x)

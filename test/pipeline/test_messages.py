@@ -48,10 +48,10 @@ def test_a_goal_is_a_pose_turned_about_z_in_the_frame_of_the_machine():
     )
 
 
-def test_command_is_a_velocity_across_the_belt():
-    assert messages.command_fields(STAMP, 0.002) == {
+def test_command_is_a_velocity_across_and_along_the_belt():
+    assert messages.command_fields(STAMP, 0.002, -0.003) == {
         'header': header('finger_base'),
-        'twist': {'linear': {'x': 0.002}},
+        'twist': {'linear': {'x': 0.002, 'y': -0.003}},
     }
 
 

@@ -37,10 +37,11 @@ from tactile_push.control.placing.stages import (
     OTHER_ROTATION,
     OUTSIDE_WORKSPACE,
     PLACING,
+    REGRASPING,
     RELEASED,
 )
 from tactile_push.estimation.contradictions import BLIND, CONTRADICTIONS, JUMPED
-from tactile_push.interface import PLACE_RELEASE, PLACE_STATE, SENSING_STATE, TOPICS
+from tactile_push.interface import COMMAND, PLACE_RELEASE, PLACE_STATE, SENSING_STATE, TOPICS
 from tactile_push.pipeline.belief import FRICTION, NEEDED
 
 GOAL, SECOND = (-0.02, -0.1), (-0.012, 0.05)
@@ -434,3 +435,96 @@ def test_a_deactivated_law_gives_the_goal_up():
     line = serving()
     line.deactivate()
     assert stage_of(line.states[-1]) == CANCELLED
+
+
+ACROSS = (0.015, 0.35)  # which no push from a contact so far to the right reaches
+
+
+@pytest.fixture(scope='module')
+def regrasped():
+    """Return a line with a finger of two axes that has placed two objects, and a copy of it.
+
+    The copy is of when the finger was on its way to the second contact. Nobody may change them.
+    """
+    line = Line(theta=0.35, d=0.012, axes=2)
+    line.ask(*ACROSS)
+    line.until(lambda: line.placing.stage == REGRASPING and line.ticks[-1].v_x < -0.01)
+    away = copy.deepcopy(line)
+    line.until(lambda: line.placing.released == 1)
+    line.ask(*ACROSS)
+    line.until(lambda: stages(line)[-1] == LEARNING)
+    return line, away
+
+
+def test_what_no_push_reaches_is_placed_from_another_contact(regrasped):
+    line, _ = regrasped
+    ((x, theta),) = line.placed
+    assert x == pytest.approx(ACROSS[0], abs=1e-3)
+    assert theta == pytest.approx(ACROSS[1], abs=math.radians(1.0))
+    expected = [LEARNING, PLACING, REGRASPING, PLACING]
+    assert [stage for stage in stages(line) if stage in expected][:4] == expected
+
+
+def test_a_contact_that_is_lost_on_purpose_stops_nothing_and_nothing_is_forgotten(regrasped):
+    line, _ = regrasped
+    told = [dict(zip(m['name'], m['position'], strict=True)) for m in said(line, SENSING_STATE)]
+    for tick, state, sensed in zip(line.ticks, line.states, told, strict=False):
+        assert tick.apart == (stage_of(state) == REGRASPING)
+        if tick.apart:
+            assert (tick.state, tick.stop_reason) == (PUSHING, NO_REASON)
+            assert sensed['readings'] > 20.0
+    silence = max(tick.silence for tick in line.ticks if tick.apart)
+    assert silence > 2.0 * line.control.push.limits.contact_timeout
+    moves = {(tick.v_x != 0.0, tick.v_y != 0.0) for tick in line.ticks if tick.apart}
+    assert {(False, True), (True, False), (False, False)} <= moves
+    commands = [fields['twist']['linear']['y'] for fields in said(line, COMMAND)]
+    assert min(commands) == -line.control.push.limits.max_speed
+
+
+def test_once_it_has_let_go_the_finger_goes_back_to_its_line_before_it_is_put_down(regrasped):
+    line, _ = regrasped
+    placed = next(k for k, state in enumerate(line.states) if stage_of(state) == LIFTED)
+    after = [tick.v_y for tick in line.ticks[placed:]]
+    assert min(after) == 0.0
+    back = -sum(tick.v_y for tick in line.ticks[:placed]) * PERIOD
+    assert sum(after) * PERIOD == pytest.approx(back, abs=2e-4)
+    assert back > 0.002
+    down = next(
+        k
+        for k, state in enumerate(line.states)
+        if stage_of(state) == AWAITING_CONTACT and k > placed
+    )
+    assert not any(tick.v_y for tick in line.ticks[down:])
+    assert not any(tick.apart for tick in line.ticks[placed:])
+
+
+def test_a_goal_that_is_given_up_off_the_object_leaves_the_finger_still(regrasped):
+    away = copy.deepcopy(regrasped[1])
+    assert away.placing.cancel()
+    assert stands(away, CANCELLED)
+    assert not any(tick.v_y or tick.apart for tick in away.ticks[-8:])
+
+
+def test_an_object_that_does_not_come_to_the_finger_is_lost(regrasped):
+    away = copy.deepcopy(regrasped[1])
+    away.feels = False
+    away.until(lambda: away.placing.stage != REGRASPING, 100)
+    assert stands(away, OBJECT_LOST)
+    assert away.ticks[-1].stop_reason == NOTHING_TO_DO
+
+
+def test_joint_states_that_stop_off_the_object_stop_the_finger_which_goes_no_further(regrasped):
+    away = copy.deepcopy(regrasped[1])
+    away.joints_tell = False
+    away.until(lambda: away.ticks[-1].stop_reason == FINGER_UNKNOWN, 5)
+    assert (away.ticks[-1].v_x, away.ticks[-1].v_y) == (0.0, 0.0)
+    away.joints_tell = True
+    assert stands(away, OBJECT_LOST)
+
+
+def test_a_new_goal_off_the_object_is_gone_for_from_the_second_contact(regrasped):
+    away = copy.deepcopy(regrasped[1])
+    assert away.ask(0.005, 0.3) == ''
+    assert away.placing.stage == REGRASPING
+    away.until(lambda: away.placing.stage == PLACING, 100)
+    assert not any(tick.stop_reason for tick in away.ticks[-20:])

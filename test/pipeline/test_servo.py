@@ -128,3 +128,11 @@ def test_after_a_clock_was_set_back_joint_states_count_again(steps):
     assert steps.joint_states((50, 0), NAMES, RECTANGLE, back) == 'joint states'
     steps.command((50, 0), '', 0.001, back)
     assert follows(steps, back)
+
+
+def test_a_command_along_the_belt_stops_the_joints_which_keep_a_line(steps):
+    steps.joint_states((100, 0), NAMES, RECTANGLE, NOW)
+    assert steps.command((100, 0), '', 0.001, NOW, 0.0) == 'commands'
+    assert follows(steps)
+    assert steps.command((100, 0), '', 0.001, NOW, -0.001) == 'implausible commands'
+    assert not follows(steps)

@@ -10,7 +10,7 @@ from tactile_push.bags import BagReader
 from tactile_push.cli import main
 from tactile_push.control import NOTHING_TO_DO
 from tactile_push.control.placing import STAGES
-from tactile_push.control.placing.stages import SETTLES
+from tactile_push.control.placing.stages import REGRASPING, SETTLES
 
 GOAL, SECOND = (-0.02, -0.1), (-0.012, 0.05)
 STRAIGHT = (0.0, 0.0, 0.0, 1.0)
@@ -126,6 +126,24 @@ def test_the_law_that_settles_is_made_again_to_the_last_digit(tmp_path):
     assert not comparison.different()
     said = [STATE, COMMAND, '/push_controller/state']
     assert contents(tmp_path / 'out', said) == contents(bag, said)
+
+
+def test_a_finger_that_touches_elsewhere_is_made_again_to_the_last_digit(tmp_path):
+    line = Line(theta=0.35, d=0.012, late=1, age=0.03, axes=2)
+    line.ask(0.015, 0.35)
+    line.until(lambda: line.placing.stage == REGRASPING)
+    line.until(lambda: line.placing.stage == 'placing')
+    for _ in range(20):
+        line.period()
+    bag = line.bag(tmp_path / 'bag')
+    (comparison,) = replayed(bag, out=tmp_path / 'out')
+    assert (comparison.kept, len(comparison.ticks)) == (0, len(line.ticks))
+    assert not comparison.different()
+    assert min(tick.v_y for tick in comparison.ticks) == -0.02
+    said = [STATE, COMMAND, '/push_controller/state']
+    assert contents(tmp_path / 'out', said) == contents(bag, said)
+    (comparison,) = replayed(bag, controller={'axes': 1})
+    assert comparison.different()
 
 
 def test_another_belt_ends_otherwise(run):

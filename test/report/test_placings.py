@@ -115,3 +115,29 @@ def test_belt_is_unknown_where_nothing_is_left_to_tell():
     columns['belt_left'] = np.full(len(columns['time']), np.nan)
     assert placings(columns, {})[0].belt is None
     assert BELT > 0.0
+
+
+def test_touching_anew_is_counted_and_named():
+    columns = states()
+    stage, start = columns['stage'], round(10.0 * GOALS[0][0])
+    for first, last in ((20, 30), (50, 52)):
+        stage[start + first : start + last] = STAGES.index('regrasping')
+    first, second, *_ = placings(columns, truth()[0])
+    assert (first.regrasps, second.regrasps) == (2, 0)
+    assert first.belt == pytest.approx(0.0475)
+    rows = [dict(zip(GOAL_HEADS, row, strict=True)) for row in goal_cells([first, second])]
+    assert [row['end'] for row in rows] == ['released, 2 regrasps', 'missed']
+    stage[start + 50 : start + 52] = STAGES.index('placing')
+    one, *_ = placings(columns, truth()[0])
+    assert goal_cells([one])[0][-1] == 'released, 1 regrasp'
+
+
+def test_a_finger_that_goes_back_along_the_belt_is_where_the_simulator_has_it(found):
+    state, pose = truth()
+    along = -0.001 * state['time']
+    back = way_of(found[0], state | {'along': along}, pose | {'y': pose['y'] - along})
+    way = way_of(found[0], state, pose)
+    assert back.finger[:, 1] - way.finger[:, 1] == pytest.approx(
+        along[100 : 100 + len(along)][: len(way.finger)]
+    )
+    assert back.moved == pytest.approx(way.moved)

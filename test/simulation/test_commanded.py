@@ -27,7 +27,7 @@ def test_the_belt_stands_until_the_first_command(across):
     commanded.move(0.1, 0.1)
     assert not commanded.started
     assert rig.belt_travel == 0.0
-    assert commanded.take(0.0, 0.1, 0.1) == 'commands'
+    assert commanded.take(0.0, 0.0, 0.1, 0.1) == 'commands'
     commanded.move(0.1, 0.2)
     assert rig.belt_travel == pytest.approx(0.0005)
 
@@ -49,26 +49,38 @@ def test_the_belt_may_press_the_object_before(across, joints):
         (-math.inf, 0.0, 'commands not finite'),
     ],
 )
-def test_a_velocity_is_bounded(across, v_x, obeyed, kind):
+def test_a_velocity_is_bounded_both_ways(across, v_x, obeyed, kind):
     _, commanded = across
-    commanded.take(0.02, 0.1, 0.0)
-    assert commanded.take(v_x, 0.1, 0.0) == kind
-    assert commanded.v_x == obeyed
+    stands = 0.0 if kind == 'commands not finite' else 0.02
+    for axes in (0, 1):
+        commanded.take(0.02, 0.02, 0.1, 0.0)
+        wanted = (v_x, 0.02) if axes == 0 else (0.02, v_x)
+        assert commanded.take(*wanted, 0.1, 0.0) == kind
+        got = commanded.v_x, commanded.v_y
+        assert got == ((obeyed, stands) if axes == 0 else (stands, obeyed))
+
+
+def test_a_finger_moves_along_the_belt_too(across):
+    rig, commanded = across
+    commanded.take(0.0, -0.02, 0.1, 0.0)
+    commanded.move(0.1, 0.1)
+    assert rig.along == pytest.approx(-0.002)
+    assert not rig.touching
 
 
 def test_a_velocity_ends_exactly_with_its_timeout(across):
     rig, commanded = across
-    commanded.take(0.01, 0.1, 1.0)
+    commanded.take(0.01, -0.001, 0.1, 1.0)
     assert not commanded.overdue(1.499)
     commanded.move(0.1, 1.499)
-    assert rig.v_x == 0.01
+    assert (rig.v_x, rig.v_along) == (0.01, -0.001)
     assert commanded.overdue(1.5)
     commanded.move(0.1, 1.5)
-    assert rig.v_x == 0.0
-    commanded.take(0.01, 0.1, 2.0)
+    assert (rig.v_x, rig.v_along) == (0.0, 0.0)
+    commanded.take(0.01, -0.001, 0.1, 2.0)
     commanded.expire()
     commanded.move(0.1, 2.1)
-    assert rig.v_x == 0.0
+    assert (rig.v_x, rig.v_along) == (0.0, 0.0)
 
 
 def test_velocities_of_joints_stay_in_force(joints):

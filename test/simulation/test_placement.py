@@ -140,7 +140,8 @@ def test_what_was_learnt_before_is_known_after_the_second_touch():
         limits=Limits(retreat_max=ROOM),
         watch=watch,
     )
-    assert (found.stage, law.regrasps) == (RELEASED, 1)
+    assert found.stage == RELEASED
+    assert law.regrasps >= 1
     assert abs(found.x_error) < 1e-3
     assert abs(found.theta_error) < math.radians(1.0)
     last = max(k for k, one in enumerate(known) if one[0])

@@ -56,6 +56,7 @@ class Line:
         self.geometry = Geometry(make_finder(ContactGeometryParameters()), JOINTS, seconds)
         self.config = paper_block(theta=theta, d=d)
         self.rig = Rig(self.config, Faults(servo=Servo(time_constant=LAG)))
+        self.joints_tell = True
         self.home = self.centre  # where each object begins [m]
         self.readout = Readout(Sensor(NOISE), 0)
         self.now, self.age, self.late = BEGIN, age, late
@@ -63,7 +64,7 @@ class Line:
         self.feels = self.senses = True
         self._under_way = []
         self._said = 0  # in this period
-        self._v_x = None
+        self._tick = None  # the last one
         self._free_in = math.nan  # [s]
         self.before_release = lambda line: None
         self.control.push.activate(seconds(*self.stamp))
@@ -106,7 +107,7 @@ class Line:
         self.placing.look_ahead()
         if self.senses:
             self._under_way.append([*self.sensing.tick(self.stamp, tick).outputs()])
-        self._v_x, self._free_in = tick.v_x, self.placing.let_go_in
+        self._tick, self._free_in = tick, self.placing.let_go_in
         self._advance(PERIOD * 1e-9 - self.age)
         self.now += PERIOD
         return tick
@@ -149,7 +150,8 @@ class Line:
         stamp = divmod(self.now - round(1e9 * self.age), 10**9)
         joints = self.rig.joints
         self.geometry.joint_states(stamp, JOINTS, joints)
-        self.control.joint_states(stamp, JOINTS, joints)
+        if self.joints_tell:
+            self.control.joint_states(stamp, JOINTS, joints)
         for sample in self.readout.read(self.rig.reading(), seconds(*stamp)) if self.feels else ():
             angles = sample.reading.azimuth, sample.reading.elevation
             felt = self.geometry.tactile(stamp, ANGLES, angles)
@@ -168,14 +170,16 @@ class Line:
             if self.placing.release():
                 self._hear(PLACE_RELEASE, {'data': True})
                 self.placed.append((self.centre - self.home, self.rig.theta))
+                self.rig.lift()
                 self.feels = False
             self._free_in = math.nan
         self._free_in -= duration
         self._step(duration)
 
     def _step(self, duration):
-        if duration > 0.0:
-            self.rig.step(self._v_x or 0.0, duration, self._v_x is not None)
+        tick = self._tick
+        if duration > 0.0 and tick is not None:
+            self.rig.step(tick.v_x or 0.0, duration, tick.v_x is not None, tick.v_y)
 
     def _put_down(self):
         """Bring the next object, if the finger was up."""

@@ -3,7 +3,6 @@
 """The law that places: it learns where the contact is, plans, and says when to let go."""
 
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -11,12 +10,13 @@ import numpy as np
 from tactile_push.control.law import AHEAD, motion_angle
 from tactile_push.control.placing.arcs import UNKNOWNS, rest_of
 from tactile_push.control.placing.believing import D_MARGIN, Belief, BelievingLaw
+from tactile_push.control.placing.elsewhere import Elsewhere
 from tactile_push.control.placing.horizon import Plan
 from tactile_push.control.placing.learning import Spread, telling_command
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation, ahead
 from tactile_push.control.placing.planner import DETOUR, Planner
 from tactile_push.control.placing.reachability import Task
-from tactile_push.control.placing.regrasp import Moves, Regrasp, Touch, detour, fits, touches
+from tactile_push.control.placing.regrasp import Moves
 from tactile_push.control.placing.stages import (
     LEARNING,
     LETTING_GO,
@@ -33,6 +33,7 @@ from tactile_push.mechanics import friction_cone
 NOWHERE = Goal(math.nan, math.nan)  # no goal
 ACTING = (LEARNING, PLACING, LETTING_GO, REGRASPING)
 KNOWN = 1e-3  # standard deviation of d below which the law commits itself [m]
+VAGUE = 2e-3  # the same beyond which no other contact is looked for [m]; picked
 LEARNED_SHARE = 0.08  # of the belt, after which it does so anyhow; picked
 SPREADS = 1.0  # deviations of d that are kept from the edge's ends beside `D_MARGIN`
 # Nothing is let go of while less is known than these standard deviations [m, rad]: so much belt [m]
@@ -41,9 +42,6 @@ SURE, SURE_ANGLE, KEPT_BACK, KEPT_SHARE = 3.5e-4, math.radians(0.3), 0.01, 0.05
 # Belt at the end of a plan on which a turn that differs from what is believed is made up for [m],
 # the share by which it may differ though c is known, and the drift for which that is worth while.
 LAST_TURN, OWN_DOUBT, CLEAR_DRIFT = 0.02, 0.02, 0.2
-# Control periods in a row without a plan that arrives, after which another contact is looked for:
-# by then the planner has looked for all kinds of plans. And how many pass if there is none; picked.
-IN_VAIN, AGAIN = 20, 20
 LARGEST_ANGLE = math.radians(50.0)  # of theta in plans
 
 
@@ -53,7 +51,7 @@ class PlaceLaw(BelievingLaw):
     It takes the place of law (18) in `PushControl`. Until something is believed it pushes straight
     ahead. While d is hardly known it pushes so as to learn d. Then it plans in every control period
     anew, from the newest belief moved on to the present, and says in which period to let go. If no
-    plan arrives and the finger can move along the belt, it touches elsewhere (`regrasp`).
+    plan arrives and the finger can move along the belt, it touches elsewhere (`Elsewhere`).
 
     Parameters
     ----------
@@ -82,8 +80,6 @@ class PlaceLaw(BelievingLaw):
     ----------
     stage : str
         One of `stages.STAGES`: `LEARNING`, `PLACING`, `REGRASPING`, `LETTING_GO`, and how it ended.
-    regrasps : int
-        How often the finger has left the object for the goal.
     let_go_in, tell_in : float
         When the object is free, and when to say so that it is, after the last update [s]; NaN if
         not within the period.
@@ -119,18 +115,22 @@ class PlaceLaw(BelievingLaw):
         self._delay = delay * belt_speed
         self._bounds = self._bounds._replace(theta_max=LARGEST_ANGLE)
         self._planner = Planner(self._bounds)
-        self._period = period
-        self._moves, self._room = moves, room
-        self._regrasp: Regrasp | None = None
+        self._elsewhere = Elsewhere(moves, room, period)
+        self.stage = NO_GOAL
         self.aim_at(goal)
 
     def aim_at(self, goal: Goal) -> None:
-        """Take another goal, for which there is all the belt; what is believed stays."""
+        """Take another goal, for which there is all the belt; what is believed stays.
+
+        A finger that is on its way to another contact goes on.
+        """
         self.goal = goal
         self.theta_desired = goal.theta
         self.began = False  #: whether there was a reading since
         self.used = 0.0  #: belt since then [m]
-        self.stage = NO_GOAL if math.isnan(goal.x) else LEARNING
+        if self.stage != REGRASPING:
+            self.stage = NO_GOAL if math.isnan(goal.x) else LEARNING
+            self.away = None
         self.let_go_in = self.tell_in = math.nan
         self.plan: Plan | None = None
         self._planned_at = math.nan  # on the belt's way [m]
@@ -138,10 +138,8 @@ class PlaceLaw(BelievingLaw):
         self._aim = math.nan
         self._goes_around = False  # whether the end was missed, so that a plan is to go around
         self._kept_since = math.inf  # belt used when the end was near for the first time [m]
-        self.regrasps = 0
-        self._in_vain = 0  # periods in a row without a plan that arrives
-        self._tries: Iterator[Touch | None] | None = None
-        self._touches: list[Touch] = []  # those of the tries that lead to the goal
+        self._stays = False  # although the finger is not on its line
+        self._elsewhere.begin()
         self._planner.forget()
 
     def end(self, stage: str) -> None:
@@ -163,12 +161,28 @@ class PlaceLaw(BelievingLaw):
     @property
     def rests(self) -> str:
         """Why the law does not want to push: it has no goal, or that has come to an end."""
-        return NO_REASON if self.stage in ACTING else NOTHING_TO_DO
+        return NO_REASON if self.stage in ACTING or self.returns else NOTHING_TO_DO
+
+    @property
+    def apart(self) -> bool:
+        """Whether the finger is on its way to another contact."""
+        return self.stage == REGRASPING
+
+    @property
+    def returns(self) -> bool:
+        """Whether the finger goes back to its line, as it does once it has let go."""
+        return self.stage == RELEASED and not (self._stays or self._elsewhere.is_home)
+
+    @property
+    def regrasps(self) -> int:
+        """How often the finger has left the object for the goal."""
+        return self._elsewhere.regrasps
 
     def reset(self, phi: float = AHEAD) -> None:
         """Forget the last reading and what was believed, as when the finger has stopped."""
         super().reset(phi)
         self._planner.forget()
+        self._stays = self._stays or self.returns
         if self.stage == REGRASPING:  # nobody brings the finger to the other contact any more
             self.stage = LEARNING
 
@@ -180,12 +194,10 @@ class PlaceLaw(BelievingLaw):
         super().pass_time(seconds)
         if self.stage == LETTING_GO and self._past.way >= self._free_at:
             self.end(RELEASED)
-        if self.stage == REGRASPING and self.away is not None:
-            assert self._regrasp is not None
-            self._regrasp.pass_time(seconds, self.away)
-            self._room += self.away[1] * seconds
-            if self._regrasp.is_late:
-                self.end(OBJECT_LOST)
+        if self.away is not None:
+            self._elsewhere.pass_time(seconds, self.away)
+        if self.stage == REGRASPING and self._elsewhere.is_late:
+            self.end(OBJECT_LOST)
         if self.began and self.stage in (LEARNING, PLACING, REGRASPING):
             self.used += seconds * self._belt_speed
             if self.used >= self.belt:
@@ -195,15 +207,18 @@ class PlaceLaw(BelievingLaw):
         """Give the push angle of the next period, as in `PushLaw`."""
         self.began = True
         self._theta_before = theta
-        if self.stage == REGRASPING and self._regrasp is not None and self._regrasp.is_clear:
+        if self.stage == REGRASPING and self._elsewhere.is_clear:
             self.stage, self.away = PLACING, None
             self._belief = None  # which was about the contact that is left
-        self._act()
+        if self.returns:  # though something is felt
+            self.away = 0.0, 0.0
+        else:
+            self._act()
         return self.phi
 
     def go_on(self) -> None:
         """Plan from older readings in a period without a new one."""
-        if self._theta_before is not None:
+        if self._theta_before is not None or self.returns:
             self._act()
 
     def task(self) -> Task | None:
@@ -222,8 +237,10 @@ class PlaceLaw(BelievingLaw):
             self.phi = motion_angle(self._finish(), 1.0)
             return
         if self.stage == REGRASPING:
-            assert self._regrasp is not None
-            self.away = self._regrasp.velocity(self._period)
+            self.away = self._elsewhere.velocity()
+            return
+        if self.returns:
+            self.away = self._elsewhere.velocity_home()
             return
         present = None if self.rests else self.present()
         if present is None:
@@ -240,7 +257,7 @@ class PlaceLaw(BelievingLaw):
         if self.stage == LEARNING:
             slippery = _others(belief)[0]
             u = telling_command(now, belief.pushed, slippery, bounds, belief.spread, self._aim)
-        elif self._looks_elsewhere(now, belief):
+        elif self._looks_elsewhere(belief):
             u = ahead(now, belief.pushed, bounds)
         else:
             u = self._place(now, belief, bounds, self.belt - self.used)
@@ -260,9 +277,9 @@ class PlaceLaw(BelievingLaw):
         )
         if plan is not None and plan.length < KEPT_BACK + last:
             self._kept_since = min(self._kept_since, self.used)
-        self._in_vain += 1
-        if plan is not None and plan.arrives:
-            self._in_vain = 0 if self._planner.takes_the_likely else self._in_vain
+        arrives = plan is not None and plan.arrives
+        self._elsewhere.count(arrives and self._planner.takes_the_likely)
+        if arrives:
             self._goes_around = False
         elif plan is not None and plan.length < last and not plan.near:
             self._planner.drop()
@@ -279,32 +296,17 @@ class PlaceLaw(BelievingLaw):
             return ahead(now, belief.pushed, bounds)
         return plan.command(self._piece)
 
-    def _looks_elsewhere(self, now: Situation, belief: Belief) -> bool:
-        """Look for another contact if that is due; return whether this takes the place of a plan.
-
-        It tries one contact in a period, which is what there is time for.
-        """
-        if self._moves is None or self._in_vain < IN_VAIN or belief.spread.d > KNOWN:
+    def _looks_elsewhere(self, belief: Belief) -> bool:
+        """Look for another contact if that is due; return whether it takes the place of a plan."""
+        task = self.task()
+        if not self._elsewhere.is_due or belief.spread.d > VAGUE or task is None:
             return False
-        if self._tries is None:
-            left = max(self.belt - self.used, 0.0)
-            task = Task(now, belief.pushed, self._inside(belief, 0.0), left)
-            self._tries, self._touches = touches(task, self.goal, self._moves, self._room), []
-        for touch in self._tries:
-            if touch is not None:
-                self._touches.append(touch)
-            return True
-        self._in_vain, self._tries = IN_VAIN - AGAIN, None
-        self._planner.drop()
-        for touch in sorted(self._touches, key=lambda one: one.belt):
-            way = detour(now, touch.d, self._moves)
-            if fits(way, now, self._bounds, self._room):  # from here, too
-                self._regrasp = Regrasp(way, self._moves)
-                self.stage, self.plan = REGRASPING, None
-                self.regrasps += 1
-                self.away = self._regrasp.velocity(self._period)
-                return True
-        return False
+        if self._elsewhere.look(task, self.goal):
+            self.stage, self.plan = REGRASPING, None
+            self.away = self._elsewhere.velocity()
+        if not self._elsewhere.is_due:
+            self._planner.drop()
+        return True
 
     def _least(self, spread: Spread) -> float:
         """Return the belt that a plan takes at the least [m]."""

@@ -19,7 +19,7 @@ from std_msgs.msg import Bool
 from std_srvs.srv import Trigger
 
 from tactile_push.control.placing import ENDS
-from tactile_push.control.placing.stages import RELEASED
+from tactile_push.control.placing.stages import REGRASPING, RELEASED
 from tactile_push.interface import CANCEL, PLACE_GOAL, PLACE_RELEASE, PLACE_STATE, SENSING_STATE
 from tactile_push.nodes.ros.managed import ManagedNode
 from tactile_push.nodes.ros.qos import PUBLISHED
@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 # for a command, and longer than active_sensing takes on a busy machine; picked.
 ESTIMATE_PATIENCE = 0.2
 INACTIVE = 'inactive'
+FINE = {RELEASED, REGRASPING}  # stages that are told without a warning
+TOLD = ENDS | FINE
 
 
 class PlaceTopics:
@@ -166,9 +168,9 @@ class PlaceTopics:
         logger, doubt = self._node.get_logger(), placing.doubt
         if doubt and doubt != self._doubt:
             logger.warning(f'{PLACE_GOAL}: {doubt}')
-        if placing.stage != self._stage and placing.stage in ENDS:
+        if placing.stage != self._stage and placing.stage in TOLD:
             # In two lines of code: rclpy raises an error where one logs at two levels.
-            if placing.stage == RELEASED:
+            if placing.stage in FINE:
                 logger.info(f'{PLACE_GOAL}: {placing.stage}')
             else:
                 logger.warning(f'{PLACE_GOAL}: {placing.stage}')

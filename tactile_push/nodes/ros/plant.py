@@ -171,8 +171,8 @@ class PlantNode(Node, Generic[P]):
 
     def _on_command(self, message: TwistStamped) -> None:
         assert isinstance(self._commanded, CommandedVelocity)
-        fastest = self._settings.max_speed
-        kind = self._commanded.take(message.twist.linear.x, fastest, self._now())
+        fastest, velocity = self._settings.max_speed, message.twist.linear
+        kind = self._commanded.take(velocity.x, velocity.y, fastest, self._now())
         if kind != NOT_FINITE:
             self._pace.command(_seconds(message), self._time)
         self._count_command(kind)

@@ -327,3 +327,54 @@ def test_the_belt_runs_out_while_the_finger_is_off_the_object_too():
     one.pass_time((0.2 - used) / BELT_SPEED + 1e-6)
     assert one.stage in (MISSED, OBJECT_LOST)
     assert one.away is None
+
+
+def returning():
+    """Return a law that has let go behind its line."""
+    one = regrasping()
+    for _ in range(5):
+        one.pass_time(PERIOD)
+        one.go_on()
+    one.end(RELEASED)
+    one.go_on()
+    return one
+
+
+def test_once_it_has_let_go_the_finger_goes_back_to_its_line_and_rests_there():
+    one, gone = returning(), 0.0
+    assert one.rests == NO_REASON
+    assert not one.apart
+    while one.returns:
+        v_x, v_y = one.away
+        assert v_x == 0.0 < v_y
+        one.pass_time(PERIOD)
+        one.go_on()
+        gone += v_y * PERIOD
+    assert gone > 0.002
+    assert one.rests == NOTHING_TO_DO
+
+
+def test_a_finger_that_feels_something_on_its_way_back_stands():
+    one = returning()
+    one.pass_time(PERIOD)
+    one.update(0.1)
+    assert (one.away, one.rests) == ((0.0, 0.0), NO_REASON)
+    one.pass_time(PERIOD)
+    one.go_on()
+    assert one.away[1] > 0.0
+
+
+def test_a_finger_that_was_stopped_on_its_way_back_stays_and_takes_the_next_goal():
+    one = returning()
+    for _ in range(2):  # in each period in which it rests
+        one.reset()
+        assert (one.away, one.returns, one.rests) == (None, False, NOTHING_TO_DO)
+    one.aim_at(GOAL)
+    assert (one.stage, one.away) == (LEARNING, None)
+
+
+def test_a_new_goal_off_the_object_leaves_the_finger_on_its_way():
+    one = regrasping()
+    away = one.away
+    one.aim_at(GOAL)
+    assert (one.stage, one.away, one.goal) == (REGRASPING, away, GOAL)
