@@ -17,6 +17,10 @@ go within 0.5, 1 and 2 mm and degrees; median and 95 % quantile of the errors; o
 0.5 the belt in the median, the part of it for learning, and the ratio to the shortest belt that a
 long search finds under the true numbers.
 
+With regrasp the finger has two axes, and those goals count that are out of reach from the first
+contact under the true numbers, whatever plan is looked for, and within reach from another one on
+the same edge. The belt for such a goal is compared with the shortest way over one of these.
+
 Of all goals of the block: how often one is refused that an oracle reaches, and how often one is
 promised with reserve that cannot be reached. The oracle is the law, with the true state told or by
 touch alone, or the long search. What cannot be reached is what the law misses both ways.
@@ -63,6 +67,7 @@ GROUPS = (
     Group('l wrong by 5 %, called so', l_error=0.05, l_share=0.05),
     Group('1 % outliers', outlier=0.01),
     Group('tip turns', tip_turns=True),
+    Group('with regrasp', axes=2),
 )
 ESTIMATED, TOLD = GROUPS[:2]  # every goal of these is tried
 WITHIN = (0.5, 1.0, 2.0)  # [mm] and degrees

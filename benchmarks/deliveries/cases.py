@@ -9,11 +9,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tactile_push import paper
+from tactile_push.control.limits import RETREAT
 from tactile_push.control.placing.horizon import ROUNDS, pushes, refined
 from tactile_push.control.placing.model import Bounds, Goal, Situation, ahead, follow
 from tactile_push.control.placing.reachability import Task, reach, with_reserve
+from tactile_push.control.placing.regrasp import Moves, touches
 from tactile_push.control.placing.search import FAMILIES
-from tactile_push.control.placing.stages import AT_THE_LIMITS, WITH_RESERVE
+from tactile_push.control.placing.stages import AT_THE_LIMITS, OUT_OF_REACH, WITH_RESERVE
 from tactile_push.estimation import Edge, edges_of
 from tactile_push.mechanics import Outline, Slider, Support
 from tactile_push.mechanics.support import COUNT
@@ -33,6 +35,9 @@ THETA_MAX = math.radians(50.0)  # in plans
 HELD = 0.03  # belt on which the object translates before a reserve is asked for [m]
 PATCH = 0.01  # radius of a patch that bears an object [m]
 RATE = 0.05 / paper.BELT_SPEED**2  # largest change of cot(phi) a metre of belt [1/m]
+
+MOVES = Moves(0.02, 0.05, paper.BELT_SPEED)  # of a finger of two axes, off the object
+FROM_ELSEWHERE = 'from another contact'  # a verdict beside those of `reach`
 
 BLOCK: Corners = paper.BLOCK_CORNERS
 PLATE: Corners = ((-0.04, -0.02), (0.04, -0.02), (0.04, 0.02), (-0.04, 0.02))
@@ -56,6 +61,12 @@ class Group:
     tip_turns: bool = False
     state_told: bool = False  # whether the law is told the true state, else it estimates
     law: str = 'plans'  # or 'law (18)' or 'cascade'
+    axes: int = 1  # of the finger; with 2 the goals count that only another contact leads to
+
+    @property
+    def counted(self) -> str:
+        """Verdict of the goals that count."""
+        return FROM_ELSEWHERE if self.axes == 2 else WITH_RESERVE
 
 
 @dataclass(frozen=True)
@@ -67,7 +78,7 @@ class Case:
     support: int  # its kind, see `support`
     goal: Goal
     task: Task  # under the true numbers
-    verdict: str  # of `reach`; and with reserve only if it still is after a while
+    verdict: str  # of `reach`, and with reserve only if it still is after a while; or another one
     seed: int
 
 
@@ -99,6 +110,8 @@ def case(seed: int, group: Group) -> Case:
     verdict = reach(task, goal).verdict
     if verdict == WITH_RESERVE and not with_reserve(_held(task)).arrives(goal):
         verdict = AT_THE_LIMITS
+    if group.axes == 2 and verdict == OUT_OF_REACH and any(touches(task, goal, MOVES, RETREAT)):
+        verdict = FROM_ELSEWHERE
     return Case(config, edge, kind, goal, task, verdict, seed)
 
 
@@ -118,6 +131,12 @@ def long_search(task: Task, goal: Goal) -> float:
     if math.isnan(found[0]):
         found += [_length(later, goal, way) for later, way in _later(task)]
     return min((length for length in found if length == length), default=math.nan)
+
+
+def shortest_from_elsewhere(task: Task, goal: Goal) -> float:
+    """Return the shortest belt [m] by way of another contact; NaN if none leads to the goal."""
+    found = (touch.belt for touch in touches(task, goal, MOVES, RETREAT) if touch is not None)
+    return min(found, default=math.nan)
 
 
 def _length(task: Task, goal: Goal, way: float) -> float:

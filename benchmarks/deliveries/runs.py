@@ -7,9 +7,21 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from deliveries.cases import WORKSPACE, Case, Group, case, long_search, rig_of
+from deliveries.cases import (
+    FROM_ELSEWHERE,
+    MOVES,
+    WORKSPACE,
+    Case,
+    Group,
+    case,
+    long_search,
+    rig_of,
+    shortest_from_elsewhere,
+)
 from deliveries.rivals import Rival
 from tactile_push import paper
+from tactile_push.control import Limits
+from tactile_push.control.limits import RETREAT
 from tactile_push.control.placing.law import PlaceLaw
 from tactile_push.control.placing.reachability import Task, reach
 from tactile_push.control.placing.stages import LEARNING, OUT_OF_REACH, RELEASED, WITH_RESERVE
@@ -76,6 +88,8 @@ def law_for(one: Case, group: Group) -> PlaceLaw | Rival:
         *(one.goal, group.belt, one.config.belt_speed, paper.CONTROL_PERIOD),
         lag=group.lag,
         workspace=WORKSPACE,
+        moves=MOVES if group.axes == 2 else None,
+        room=RETREAT,
     )
 
 
@@ -100,20 +114,23 @@ def sensing_for(one: Case, group: Group, tilt: float = 0.0) -> ActiveSensing:
 
 
 def run(seed: int, group: Group, every: bool) -> Outcome:
-    """Draw a case and run it, if it is reachable with reserve or `every` case is to be run."""
+    """Draw a case and run it, if its goal counts or `every` case is to be run."""
     one = case(seed, group)
-    if one.verdict != WITH_RESERVE and not every:
+    if one.verdict != group.counted and not every:
         return Outcome(seed, one.verdict, '', math.nan, None)
     law = law_for(one, group)
     sensing = None if group.state_told else sensing_for(one, group)
-    placed = place(rig_of(one, group), law, sensing=sensing, seed=seed)
+    limits = Limits(retreat_max=RETREAT if group.axes == 2 else 0.0)
+    placed = place(rig_of(one, group), law, sensing=sensing, limits=limits, seed=seed)
     promise = law.promise() if isinstance(law, WatchedLaw) and sensing else ''
-    return Outcome(seed, one.verdict, promise, long_search(one.task, one.goal), placed)
+    shortest = shortest_from_elsewhere if group.axes == 2 else long_search
+    return Outcome(seed, one.verdict, promise, shortest(one.task, one.goal), placed)
 
 
 def row(name: str, outcomes: list[Outcome], within: tuple[float, ...]) -> tuple[str, ...]:
-    """Return the cells of a group's runs that are reachable with reserve."""
-    some = [one for one in outcomes if one.verdict == WITH_RESERVE and one.placement is not None]
+    """Return the cells of a group's runs whose goals count."""
+    counted = (WITH_RESERVE, FROM_ELSEWHERE)
+    some = [one for one in outcomes if one.verdict in counted and one.placement is not None]
     if not some:
         return name, '0'
     error = np.array([one.error if one.let_go else math.inf for one in some])
