@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from tactile_push.control.law import AHEAD, PushLaw, finger_velocity
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Bounds, Pushed, Situation
-from tactile_push.control.placing.past import Past
+from tactile_push.control.placing.past import Past, on_grid
 
 D_MARGIN = 2e-3  # kept from the edge's ends [m]
 X_MARGIN = 1e-3  # kept from the ends of the workspace [m]
@@ -87,7 +87,8 @@ class BelievingLaw(PushLaw):
             How long before the last update the reading was taken [s].
         """
         self._belief = belief
-        self._believed_at = self._past.way - age * self._belt_speed
+        if belief is not None:
+            self._believed_at = self._past.way - on_grid(age * self._belt_speed)
 
     def pass_time(self, seconds: float) -> None:
         """Take note of the time since the last period [s], in which phi was in force."""

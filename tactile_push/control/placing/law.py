@@ -14,6 +14,7 @@ from tactile_push.control.placing.elsewhere import Elsewhere
 from tactile_push.control.placing.horizon import Plan
 from tactile_push.control.placing.learning import Spread, telling_command
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation, ahead
+from tactile_push.control.placing.past import on_grid
 from tactile_push.control.placing.planner import DETOUR, Planner
 from tactile_push.control.placing.reachability import Task
 from tactile_push.control.placing.regrasp import Moves
@@ -337,7 +338,7 @@ class PlaceLaw(BelievingLaw):
     def _let_go(self, plan: Plan) -> None:
         """Let go at the end of a plan."""
         self.stage = LETTING_GO
-        self._free_at = self._past.way + plan.length
+        self._free_at = self._past.way + on_grid(plan.length)
         if plan.length < self._piece:
             self.stage = RELEASED
             self.let_go_in = plan.length / self._belt_speed

@@ -8,6 +8,14 @@ from collections import deque
 from tactile_push.control.placing.model import Pushed, Situation, follow
 
 REMEMBERED = 32  # commands; far more than a reading may be old
+# Ways along the belt are rounded to a grid of about a picometre [1/m]. Their sums and differences
+# are then exact up to 8 km, so that a replay that begins to count elsewhere has the same ones.
+GRID = 2.0**40
+
+
+def on_grid(way: float) -> float:
+    """Round a way along the belt [m] so that sums and differences of ways are exact."""
+    return round(way * GRID) / GRID
 
 
 class Past:
@@ -33,6 +41,7 @@ class Past:
 
     def add(self, command: float, way: float) -> None:
         """Take the command, as a share of the belt's speed, that was in force over a way [m]."""
+        way = on_grid(way)
         self._told.append((self.way, command, self._u))
         self._u = self._moving(command, self._u, way)
         self.way += way

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tactile_push.control.placing.model import Pushed, Situation, follow
-from tactile_push.control.placing.past import Past
+from tactile_push.control.placing.past import Past, on_grid
 from tactile_push.mechanics.resistance import Pressure
 
 PIECE, LAG = 5e-4, 5e-4
@@ -25,7 +25,8 @@ def past(*commands, way=PIECE, lag=LAG):
 
 
 def test_what_is_known_now_is_as_it_was():
-    now = past(1.0, 1.0).present(0.01, 0.2, 0.003, 2 * PIECE, PUSHED)
+    one = past(1.0, 1.0)
+    now = one.present(0.01, 0.2, 0.003, one.way, PUSHED)
     assert (now.x, now.theta, now.d, now.command) == (0.01, 0.2, 0.003, 1.0)
     # After two time constants the finger is a share of exp(-2) short of its command.
     assert now.u == pytest.approx(1.0 - math.exp(-2.0))
@@ -61,3 +62,16 @@ def test_it_remembers_no_more_than_it_needs():
     one = past(*[0.3] * 1000)
     assert one.way == pytest.approx(1000 * PIECE)
     assert one.present(0.0, 0.0, 0.0, one.way - PIECE, PUSHED).x == pytest.approx(0.3 * PIECE)
+
+
+def test_nothing_depends_on_where_counting_began():
+    # As for a recorder that missed the control periods before the first push.
+    commands = [0.3 - 0.1 * k for k in range(8)]
+    ways = [5e-4 + 1e-9 * k / 7.0 for k in range(8)]
+    found = []
+    for before in (0, 1, 7, 1000):
+        one = past(*[0.0] * before, way=PIECE / 3.0)
+        for command, way in zip(commands, ways, strict=True):
+            one.add(command, way)
+        found.append(one.present(0.01, 0.2, 0.003, one.way - on_grid(3.7 * PIECE), PUSHED))
+    assert len(set(found)) == 1
