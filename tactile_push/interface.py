@@ -116,11 +116,9 @@ WRIST_JOINT = 'wrist_joint'  # in `joint_states` of a finger whose wrist holds t
 
 # Kinds of sensor that the simulated finger may have.
 SENSORS = (SENTENCE, FORCE_TORQUE, CAMERA) = ('sentence', 'wrench', 'camera')
-# Laws of the controller: (18), the one that brings an object to a place and an angle, (18) with a
-# place across the belt at which the object is carried straight ahead, and the one that brings the
-# edge to an angle by all that is known.
+# Laws of the controller: (18), the one that brings an object to a place and an angle, and those of
+# one of the two, a place across the belt at which the object is carried straight ahead or an angle.
 PUSH, PLACE, STEER, SETTLE = LAWS = ('push', 'place', 'steer', 'settle')
-BELIEVE = frozenset({PLACE, SETTLE})  # those that act on what active sensing finds
 # Points of the finger tip of which one follows the commanded velocity across the belt.
 POINTS = ('centre', 'pole', 'contact')
 # What moves the finger: a velocity across the belt, or one of each joint.
@@ -350,8 +348,8 @@ TOPICS = {
             'the angle alone, wherever that is',
         ),
         Topic(PLACE_STATE, JOINT_STATE_TYPE, (PUSH_CONTROLLER,), (EXPERIMENT, *PLANTS),
-            'what becomes of the goal, in each control period with the laws `place` and `settle`; '
-            'stamped as `push_controller/state`; NaN is unknown, or not what the law is for',
+            'what becomes of the goal, in each control period unless the law is `push`; stamped as '
+            '`push_controller/state`; NaN is unknown, or not what the law is for',
             (
                 Field('stage', '', 'what the law does', 'control.placing.STAGES'),
                 Field('refusal', '', 'why the last goal was refused', 'control.placing.REFUSALS'),

@@ -178,7 +178,7 @@ def _steer(options: argparse.Namespace, config: 'RigConfig') -> Simulated:
     from tactile_push.simulation.steered_run import NEAR, steered_run
 
     goal = options.x_goal_mm / 1000.0
-    run = steered_run(config, goal, options.steps, _law_18(options))
+    run = steered_run(config, goal, options.steps)
     settled = settle_step(run.x, goal, NEAR) if run.end == 'done' else None
     near = f'within {1000.0 * NEAR:g} mm of x = {options.x_goal_mm:g} mm'
     return Simulated(run, settled, near, math.nan, (_x_row(run),))
@@ -191,6 +191,6 @@ def _x_row(run: 'Rollout') -> str:
 LAWS = {
     'push': Law(_push, options=tuple(name for name in DEFAULTS if name != AXES)),
     'place': Law(_place, (X_GOAL, THETA_GOAL), (AXES,)),
-    'steer': Law(_steer, (X_GOAL,), ('kp', 'kd')),
+    'steer': Law(_steer, (X_GOAL,)),
     'settle': Law(_settle, (THETA_GOAL,)),
 }

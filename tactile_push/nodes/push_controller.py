@@ -28,7 +28,6 @@ from tactile_push.control import (
 )
 from tactile_push.control.placing.stages import FAILURES, NO_GOAL
 from tactile_push.interface import (
-    BELIEVE,
     COMMAND,
     CONTACT,
     CONTROLLER_STATE,
@@ -38,7 +37,6 @@ from tactile_push.interface import (
     PLACE_STATE,
     PUSH,
     RESUME,
-    STEER,
 )
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.managed import ManagedNode
@@ -58,7 +56,6 @@ from tactile_push.parameters.push_controller import (
 )
 from tactile_push.pipeline import Control, edge_angle
 from tactile_push.pipeline.stamps import stamp_of
-from tactile_push.pipeline.steering import SteerGoals
 
 STANDSTILL = 1.0  # without a tick for so long after a period, time stands still [s]; picked
 NO_LIMIT = 'use_joint_states: false does without, and keeps no limit of the workspace'
@@ -115,18 +112,14 @@ class PushController(ManagedNode):
         self.make_subscription(PoseStamped, CONTACT, self._on_contact, SENSOR_DATA)
         for qos in EVERYBODY:
             self.make_subscription(TwistStamped, COMMAND, self._on_command, qos)
-        self._hears_goals = False
         self._make_topics_of_goals()
         return TransitionCallbackReturn.SUCCESS
 
     def _make_topics_of_goals(self) -> None:
         """Make the topics that the law takes beside those of all laws, unless they are there."""
         law = self._settings.law
-        if law != PUSH and not self._hears_goals:
-            self._place.hear_goals()
-            self._hears_goals = True
-        if law in BELIEVE and PLACE_STATE not in self._outputs:
-            self._outputs[PLACE_STATE] = self._place.hear_estimates()
+        if law != PUSH and PLACE_STATE not in self._outputs:
+            self._outputs[PLACE_STATE] = self._place.make()
         if law == PLACE and PLACE_RELEASE not in self._outputs:
             self._outputs[PLACE_RELEASE] = self._place.make_release()
 
@@ -143,15 +136,14 @@ class PushController(ManagedNode):
         """Begin anew with the law that is asked for; what it needs is made and compiled."""
         p, seconds = self._settings, self._time.seconds
         self._make_topics_of_goals()
-        if p.law in BELIEVE:
+        if p.law != PUSH:
             from tactile_push.nodes.ros.compiling import compiling  # which loads the compiler
 
             with compiling(self, self._diagnostics):
                 choose_law(self._steps, p, seconds)
         else:
             choose_law(self._steps, p, seconds)
-        steering = SteerGoals(self._control) if p.law == STEER else None
-        self._place.serve(self._steps.placing, steering)
+        self._place.serve(self._steps.placing)
 
     def destroy_node(self) -> None:
         """Stop the finger and end."""

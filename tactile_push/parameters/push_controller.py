@@ -143,6 +143,8 @@ def choose_law(steps: Control, p: PushControllerParameters, seconds: Seconds) ->
     steps.push.steadying = make_steadying(steps.push.law, p)
     if p.law == PLACE:
         steps.placing = _make_placing(steps.push, p, seconds)
+    elif p.law == STEER:
+        steps.placing = _make_carrying(steps.push, p, seconds)
     elif p.law == SETTLE:
         steps.placing = _make_settling(steps.push, p, seconds)
 
@@ -164,6 +166,19 @@ def _make_placing(push: PushControl, p: PushControllerParameters, seconds: Secon
     )
     compile_placing()
     return Placing(push, law, seconds)
+
+
+def _make_carrying(push: PushControl, p: PushControllerParameters, seconds: Seconds) -> 'Believing':
+    """Let a control steer."""
+    from tactile_push.control.placing.compiling import compile_steering
+    from tactile_push.control.placing.steer_law import SteerLaw
+    from tactile_push.pipeline.steering import Carrying
+
+    law = SteerLaw(p.theta_desired, p.belt_speed, 1.0 / p.control_rate, **_bounds(p))
+    law.tune(p.kp, p.kd, p.theta_desired)
+    push.steadying = make_steadying(law, p)
+    compile_steering()
+    return Carrying(push, law, seconds)
 
 
 def _make_settling(push: PushControl, p: PushControllerParameters, seconds: Seconds) -> 'Believing':

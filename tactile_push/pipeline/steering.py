@@ -1,77 +1,67 @@
 # SPDX-FileCopyrightText: 2026 The tactile_push authors
 # SPDX-License-Identifier: Apache-2.0
-"""Goals of an object that is steered across the belt: what `push_controller` does with them.
+"""Goals of the law that steers: places across the belt.
 
-Until there is a goal the law (18) acts as it is. `push_controller/state` tells the angle that it
-then steers to, and so all that a replay needs.
+Until there is a goal, and after one was given up, law (18) acts as it is. Without an estimate
+`Steering` trims its angle by what the edge alone tells.
 """
 
 import math
 from collections.abc import Sequence
 
-from tactile_push.control import PushControl, Steering
-from tactile_push.control.placing.stages import (
-    HELD_STILL,
-    NO_GOAL,
-    NOT_FINITE,
-    OTHER_FRAME,
-    OUTSIDE_WORKSPACE,
-)
-from tactile_push.interface import FINGER_BASE, is_frame
-
-STEERING = 'steering'
+from tactile_push.control import Steering
+from tactile_push.control.placing.model import Goal
+from tactile_push.control.placing.stages import OUTSIDE_WORKSPACE, STEERS
+from tactile_push.pipeline.lasting import Lasting
 
 
-class SteerGoals:
-    """Takes goals for a control that steers.
+class Carrying(Lasting):
+    """Serves places where the object shall be carried straight ahead, at whatever angle."""
 
-    Parameters
-    ----------
-    push : PushControl
-        The control, whose steadying is a `Steering`.
-    """
+    STAGES = STEERS
 
-    def __init__(self, push: PushControl) -> None:
-        self._push = push
-
-    @property
-    def stage(self) -> str:
-        """Whether there is a goal, in words."""
-        return NO_GOAL if math.isnan(self._steering.goal) else STEERING
-
-    def goal(self, frame: str, x: float, rotation: Sequence[float]) -> str:
-        """Take a message of `place/goal`, or refuse it and go on as before.
-
-        Parameters
-        ----------
-        frame, x, rotation : str, float, sequence of float
-            The message's frame, x of its position [m], and its quaternion, which does not matter.
-
-        Returns
-        -------
-        str
-            Why it is refused, one of `REFUSALS`; empty if it is not.
-        """
-        limits = self._push.limits
-        if not is_frame(frame, FINGER_BASE):
-            return OTHER_FRAME
-        if not math.isfinite(x):
-            return NOT_FINITE
-        if not limits.workspace_min <= x <= limits.workspace_max:
-            return OUTSIDE_WORKSPACE
-        if self._push.held:
-            return HELD_STILL
-        self._steering.goal = x
-        return ''
+    def take(self, goal: Goal) -> None:
+        """Serve a goal, in place of the one that is served."""
+        super().take(goal)
+        self._aim_trim()
 
     def cancel(self) -> bool:
-        """Give up the goal; the law (18) goes on as it is. Return whether there was one."""
-        had = self.stage == STEERING
-        self._steering.goal = math.nan
+        """Give up the goal; return whether there was one."""
+        had = super().cancel()
+        self._aim_trim()
         return had
 
     @property
-    def _steering(self) -> Steering:
-        steering = self._push.steadying
-        assert isinstance(steering, Steering)
-        return steering
+    def doubt(self) -> str:
+        """What somebody should hear of, in words: that nothing is known of the object."""
+        return '' if math.isnan(self._law.goal) else super().doubt
+
+    def begin(self) -> None:
+        """Begin a control period, before the control ticks."""
+        super().begin()
+        if self._known:
+            self._push.steadying.reset()  # so that without an estimate it begins where theta is
+
+    def values(self) -> dict[str, float]:
+        """Return the numbers of `place/state` after a tick, by name."""
+        return super().values() | {'goal_x': self._law.goal}
+
+    def _aim_trim(self) -> None:
+        """Let `Steering`, unless a replay has its trim, have the goal of the law."""
+        if isinstance(self._push.steadying, Steering):
+            self._push.steadying.goal = self._law.goal
+
+    def _wanted(self, goal: Goal) -> float:
+        """Return the number of a goal that matters."""
+        return goal.x
+
+    def _numbers(self, x: float, rotation: Sequence[float]) -> Sequence[float]:
+        """Return the numbers of a message that matter."""
+        return (x,)
+
+    def _refusal(self, goal: Goal) -> str:
+        """Return why a goal of finite numbers is refused, empty if it is not."""
+        limits = self._push.limits
+        if not limits.workspace_min <= goal.x <= limits.workspace_max:
+            return OUTSIDE_WORKSPACE
+        return super()._refusal(goal._replace(theta=0.0))

@@ -16,11 +16,12 @@ from tactile_push.control import (
     HELD,
     INACTIVE,
     PUSHING,
+    Steadying,
     Tick,
     plausible,
     tick_of,
 )
-from tactile_push.interface import BELIEVE, PUSH
+from tactile_push.interface import PUSH
 from tactile_push.parameters.push_controller import (
     PushControllerParameters,
     choose_law,
@@ -173,7 +174,7 @@ class ReplayedController:
             self._feed_placing(recorded)
             self._feed(recorded, now)
             return self.step.tick(recorded.stamp, tick.elapsed)
-        if BELIEVE & {self._law(recorded), self._values.law}:
+        if {self._law(recorded), self._values.law} != {PUSH}:
             return None  # the law's memory is not in the bag
         if before is None or not before.tick.state == tick.state == PUSHING:
             return None
@@ -191,15 +192,16 @@ class ReplayedController:
     def _activate(self, recorded: _Recorded, now: float) -> bool:
         """Begin with the law that the node began with; return whether it can be followed."""
         law = self._law(recorded)
-        if self._values.law in BELIEVE and law not in BELIEVE:  # nobody recorded what it was told
+        if self._values.law != PUSH == law:  # nobody recorded what it was told
             return False
         choose_law(self.step, replace(self._values, law=law), self._seconds)
+        self._push.steadying = Steadying()  # each tick tells how it was trimmed
         self._push.activate(now - _waited(recorded.tick))
         return True
 
     def _feed_placing(self, recorded: _Recorded) -> None:
         """Give a law that believes its goals and estimates."""
-        if self.placing is not None and self._law(recorded) in BELIEVE:
+        if self.placing is not None and self._law(recorded) != PUSH:
             self.placing.feed(self.step, recorded.stamp)
 
     def _feed(self, recorded: _Recorded, now: float) -> None:

@@ -8,14 +8,16 @@ from collections import deque
 from collections.abc import Mapping
 from typing import Any
 
-from tactile_push.control.placing.stages import CANCELLED, REFUSALS, SETTLES, STAGES
-from tactile_push.interface import PLACE, SETTLE
+from tactile_push.control.placing.stages import CANCELLED, REFUSALS, SETTLES, STAGES, STEERS
+from tactile_push.interface import PLACE, SETTLE, STEER
 from tactile_push.pipeline import Control, Seconds, Stamp, by_name
 from tactile_push.pipeline.stamps import stamp_of
 
 if typing.TYPE_CHECKING:
     from tactile_push.pipeline.believing import Believing
 
+# Of which law a stage is; all others are of the one that places.
+LAWS = dict.fromkeys(SETTLES, SETTLE) | dict.fromkeys(STEERS, STEER)
 HALF_A_NANOSECOND = 0.5e-9  # two stamps differ by more [s]
 REMEMBERED = 1000  # estimates that no control period has used yet
 
@@ -67,7 +69,7 @@ class RecordedPlacing:
         values = self._periods.get(stamp)
         if values is None:
             return None
-        return SETTLE if STAGES[int(values['stage'])] in SETTLES else PLACE
+        return LAWS.get(STAGES[int(values['stage'])], PLACE)
 
     def feed(self, step: Control, stamp: Stamp) -> None:
         """Repeat what happened before a control period, and forget the periods before."""
@@ -78,7 +80,8 @@ class RecordedPlacing:
         if values['released'] > placing.released:
             placing.release()
         self._repeat_goals(placing, values)
-        if STAGES[int(values['stage'])] == CANCELLED or math.isnan(values['goal_theta']):
+        no_goal = math.isnan(values['goal_x']) and math.isnan(values['goal_theta'])
+        if STAGES[int(values['stage'])] == CANCELLED or no_goal:
             placing.cancel()
         used = self._used(stamp)
         for at, message in self._estimates:

@@ -21,6 +21,7 @@ from tactile_push.control.placing.stages import (
     RELEASED,
     SETTLES,
     STAGES,
+    STEERS,
     VERDICTS,
 )
 from tactile_push.report.columns import Column, Table
@@ -28,7 +29,7 @@ from tactile_push.report.columns import Column, Table
 # How a goal ends beside the law's own `ENDS`.
 PREEMPTED, OPEN = 'preempted', 'not ended'
 SERVES = (LEARNING, PLACING, REGRASPING, LETTING_GO)
-OF_SETTLING = tuple(float(STAGES.index(stage)) for stage in SETTLES)  # whose goals do not end
+LASTING = tuple(float(STAGES.index(stage)) for stage in (*SETTLES, *STEERS))  # goals do not end
 FIELDS = ('stage', 'goals', 'goal_x', 'goal_theta')  # without which nothing is told
 TRUTH = ('lifted', 'object_x', 'edge_angle')
 DEGREES, MILLIMETRES = 180.0 / math.pi, 1e3
@@ -84,7 +85,7 @@ def placings(states: Table, truth: Table) -> list[Placing]:
     changes = np.flatnonzero(np.diff(goals) != 0.0) + 1
     found = []
     for first, after in pairwise([0, *changes.tolist(), len(goals)]):
-        if goals[first] > 0.0 and states['stage'][first] not in OF_SETTLING:
+        if goals[first] > 0.0 and states['stage'][first] not in LASTING:
             rows = {name: column[first:after] for name, column in states.items()}
             until = time[after] if after < len(time) else math.inf
             found.append(_placing(rows, truth, until))

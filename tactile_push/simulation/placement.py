@@ -24,6 +24,8 @@ from tactile_push.pipeline import Sensing
 from tactile_push.pipeline.belief import belief_of
 from tactile_push.simulation.experiment import control_periods
 from tactile_push.simulation.rig import Rig, RigConfig
+from tactile_push.simulation.rollout import Rollout
+from tactile_push.simulation.trace import Trace
 
 if typing.TYPE_CHECKING:
     from tactile_push.simulation.mujoco_rig import MujocoRig
@@ -133,6 +135,33 @@ def believing(
         else:
             values = steps.tick((k, 0), tick).values
             law.believe(belief_of(values, rig.finger_pose.x, turning_of(rig), piece))
+
+
+def followed(
+    rig: Rig,
+    push: PushControl,
+    law: BelievingLaw,
+    sensing: ActiveSensing,
+    seed: int,
+    steps: int,
+) -> Rollout:
+    """Run a law on a rig, as `believing` does, for some control periods or until the finger stops.
+
+    Returns
+    -------
+    Rollout
+        What happened.
+    """
+    trace, end = Trace(), 'done'
+    for tick in believing(rig, push, law, sensing, seed):
+        if tick.state != PUSHING:
+            trace.close(rig)
+            end = tick.stop_reason or tick.state
+            break
+        trace.add(rig, tick.phi)
+        if len(trace) > steps:
+            break
+    return trace.run(end)
 
 
 def pressure_of(slider: Slider, tangent: float = 0.0) -> Pressure:

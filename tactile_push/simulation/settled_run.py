@@ -5,13 +5,12 @@
 from dataclasses import replace
 
 from tactile_push import paper
-from tactile_push.control import PUSHING, PushControl
+from tactile_push.control import PushControl
 from tactile_push.control.placing.settle_law import SettleLaw
 from tactile_push.simulation.by_touch import LAG, NOISE, check_edges, faults_of, sensing_of
-from tactile_push.simulation.placement import believing
+from tactile_push.simulation.placement import followed
 from tactile_push.simulation.rig import Rig, RigConfig
 from tactile_push.simulation.rollout import Rollout, check_time
-from tactile_push.simulation.trace import Trace
 
 
 def settled_run(
@@ -58,13 +57,4 @@ def settled_run(
     rig = Rig(replace(config, tip_turns=True), faults_of(noise, lag))
     law = SettleLaw(theta, config.belt_speed, period, lag=lag)
     push = PushControl(law, config.belt_speed, period)
-    trace, end = Trace(), 'done'
-    for tick in believing(rig, push, law, sensing_of(config, noise, lag), seed):
-        if tick.state != PUSHING:
-            trace.close(rig)
-            end = tick.stop_reason or tick.state
-            break
-        trace.add(rig, tick.phi)
-        if len(trace) > steps:
-            break
-    return trace.run(end)
+    return followed(rig, push, law, sensing_of(config, noise, lag), seed, steps)

@@ -5,12 +5,12 @@
 from dataclasses import replace
 
 from tactile_push import paper
-from tactile_push.control import PushLaw, Steering
-from tactile_push.mechanics.contact import L_START
-from tactile_push.simulation.by_touch import LAG, NOISE, check_edges, faults_of
-from tactile_push.simulation.experiment import experiment
-from tactile_push.simulation.rig import RigConfig
-from tactile_push.simulation.rollout import Rollout
+from tactile_push.control import PushControl
+from tactile_push.control.placing.steer_law import SteerLaw
+from tactile_push.simulation.by_touch import LAG, NOISE, check_edges, faults_of, sensing_of
+from tactile_push.simulation.placement import followed
+from tactile_push.simulation.rig import Rig, RigConfig
+from tactile_push.simulation.rollout import Rollout, check_time
 
 NEAR = 2e-3  # of the goal, within which the centre of mass counts as there [m]
 
@@ -19,13 +19,15 @@ def steered_run(
     config: RigConfig,
     goal: float,
     steps: int,
-    law: PushLaw | None = None,
     *,
     noise: float = NOISE,
     lag: float = LAG,
     seed: int = 0,
 ) -> Rollout:
-    """Steer an object by its sensed angle and the finger's place alone.
+    """Steer an object by touch alone.
+
+    The law believes what the estimator finds. That one is told the outline and which edge is
+    pushed, and neither where the finger touches nor c nor mu_c.
 
     Parameters
     ----------
@@ -35,8 +37,6 @@ def steered_run(
         Where the centre of mass shall be across the belt, from where the finger starts [m].
     steps : int
         Control periods.
-    law : PushLaw, optional
-        Law (18), whose theta_d is trimmed; with the paper's gains by default. The run changes it.
     noise, lag : float, optional
         Standard deviation of the readings of theta [rad], and time constant with which the finger
         follows its command [s].
@@ -51,11 +51,13 @@ def steered_run(
     Raises
     ------
     ValueError
-        If the object has no straight edges.
+        If `steps` is negative, or the object has no straight edges.
     """
+    period = paper.CONTROL_PERIOD
+    check_time(steps, period)
     check_edges(config, 'steer')
-    law = law or PushLaw(paper.KP, paper.KD, paper.THETA_DESIRED)
-    l = float(config.body.path[0, L_START])
-    steering = Steering(law, config.belt_speed, config.tip.x + goal, l, config.radius)
-    rig = replace(config, tip_turns=True)
-    return experiment(rig, law, steps, faults=faults_of(noise, lag), steadying=steering, seed=seed)
+    rig = Rig(replace(config, tip_turns=True), faults_of(noise, lag))
+    law = SteerLaw(paper.THETA_DESIRED, config.belt_speed, period, lag=lag)
+    law.goal = config.tip.x + goal
+    push = PushControl(law, config.belt_speed, period)
+    return followed(rig, push, law, sensing_of(config, noise, lag), seed, steps)

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from tactile_push.simulation import Rollout
-from tactile_push.simulation import steered_run as steering
 from tactile_push.simulation.placed_run import PlacedRun
 from tactile_push.simulation.placement import Placement
 
@@ -98,34 +97,19 @@ def test_an_object_that_is_not_placed_is_a_failure(command):
 
 @pytest.mark.slow
 def test_steer_says_from_when_on_the_centre_of_mass_is_near_its_goal(simulated, command):
-    arguments = *STEER, 0, '--steps', 800
-    run = simulated(*arguments)
+    run = simulated(*STEER, 0, '--steps', 500)
     first = run['settle_step']
-    assert 300 < first < 800
+    assert 50 < first < 500
     assert abs(run['x'][first - 1]) > 0.002
     assert all(abs(x) <= 0.002 for x in run['x'][first:])
-    status, out, _ = command('simulate', *arguments)
+    status, out, _ = command('simulate', *STEER, 0, '--steps', 2)
     assert status == 0
-    assert f'settled    step {first}, within 2 mm of x = 0 mm\n' in out
+    assert 'settled    never, within 2 mm of x = 0 mm\n' in out
     # Figure 8's start: the finger at the origin, 37.25 mm from the centre along n and -6 along t.
     assert (
         f'x          {-37.25 * math.sin(math.radians(20)) + 6 * math.cos(math.radians(20)):.2f} '
         in out
     )
-
-
-def test_the_gains_of_law_18_are_those_of_steer(simulated, monkeypatch):
-    laws = []
-    steered_run = steering.steered_run
-
-    def run(config, goal, steps, law):
-        laws.append((goal, law.kp, law.kd))
-        return steered_run(config, goal, steps, law)
-
-    monkeypatch.setattr(steering, 'steered_run', run)
-    simulated(*STEER, -12.5, '--steps', 2, '--kp', 0.1, '--kd', 6)
-    simulated(*STEER, 3, '--steps', 2)
-    assert laws == [(-0.0125, 0.1, 6.0), (0.003, 0.05, 5.0)]
 
 
 @pytest.mark.parametrize(
@@ -137,7 +121,7 @@ def test_the_gains_of_law_18_are_those_of_steer(simulated, monkeypatch):
         ((*STEER, 0, '--phi0-deg', 90), '--phi0-deg: expected --law push, got steer'),
         ((*STEER, 0, '--open-loop'), '--open-loop: expected --law push, got steer'),
         (('--axes', 2), '--axes: expected --law place, got push'),
-        ((*SETTLE, 0, '--kd', 5), '--kd: expected --law push or steer, got settle'),
+        ((*SETTLE, 0, '--kd', 5), '--kd: expected --law push, got settle'),
         (('--x-goal-mm', 0), '--x-goal-mm: expected --law'),
         (('--theta-goal-deg', 0), '--theta-goal-deg: expected --law'),
         ((*SETTLE, 0, '--object', 'disk'), 'object: expected one with straight edges to settle'),

@@ -20,7 +20,6 @@ from tactile_push.control import PUSHING, SERVO_STOP_REASONS, STOP_REASONS, TICK
 from tactile_push.control.placing import STAGES
 from tactile_push.interface import (
     ACTIVE_SENSING,
-    BELIEVE,
     CONTACT_GEOMETRY,
     FINGER_SERVO,
     IMAGE,
@@ -30,6 +29,7 @@ from tactile_push.interface import (
     PLACE_GOAL,
     PLACE_RELEASE,
     PLACE_STATE,
+    PUSH,
     PUSH_CONTROLLER,
     SENSOR_DRIVER,
     SERVO_COMMANDS,
@@ -107,7 +107,7 @@ class Finger(Rig):
         self.chain = (SIM_PLANT, self._sensor.node, CONTACT_GEOMETRY, PUSH_CONTROLLER)
         if setup.servo:
             self.chain += (FINGER_SERVO,)
-        if setup.law in BELIEVE:
+        if setup.law != PUSH:
             self.chain += (ACTIVE_SENSING,)
         if setup.relay:
             self.relay = Relay(observer, RELAYED[setup.relay], self.name(setup.relay))

@@ -9,7 +9,7 @@ import pytest
 
 from support.placed_run import Line
 from tactile_push import paper
-from tactile_push.control import CONTACT_SILENT, NO_REASON, PUSHING
+from tactile_push.control import NO_REASON, PUSHING
 from tactile_push.control.law import push_angle
 from tactile_push.control.placing import STAGES
 from tactile_push.control.placing.stages import (
@@ -125,18 +125,3 @@ def test_without_estimates_law_18_acts_after_half_a_second_and_that_is_told():
     line.senses = True
     line.until(lambda: stage_of(line.states[-1]) == SETTLING, 3)
     assert line.placing.doubt == ''
-
-
-def test_an_estimate_of_before_a_stop_is_not_believed_after_it():
-    line = line_at(*FIG_8)
-    for _ in range(10):
-        line.period()
-    line.senses = line.feels = False
-    line.until(lambda: line.ticks[-1].stop_reason == CONTACT_SILENT)
-    for _ in range(OLDEST):
-        line.period()
-    assert line.placing.doubt == ''  # the finger rests
-    line.feels = True
-    line.period()
-    assert line.ticks[-1].state == PUSHING
-    assert (stage_of(line.states[-1]), line.placing.doubt) == (SETTLING_BLINDLY, DOUBT)

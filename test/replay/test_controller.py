@@ -257,18 +257,3 @@ def test_a_record_without_the_later_fields_can_be_followed():
         old.append((log_time, what, *rest))
     live.heard = old
     assert [t.tick.v_x for t in replayed(live)] == [tick.v_x for _, tick in live.ticks]
-
-
-def test_an_object_that_is_steered_is_pushed_again_to_the_bit():
-    live = Live(law='steer')
-    live.control.steadying.goal = 0.01
-    for k in range(80):
-        live.contact(0.1 * math.sin(0.1 * k), 20_000_000)
-        live.position(-0.02 + 0.0003 * k, 10_000_000)
-        live.tick()
-        if k == 40:
-            live.control.steadying.goal = -0.03  # another goal
-        if k == 60:
-            live.wait(2)
-    assert max(abs(tick.trim) for _, tick in live.ticks) > 0.02
-    assert same(replayed(live, law='steer'), live.ticks)

@@ -10,7 +10,7 @@ from tactile_push.bags import BagReader
 from tactile_push.cli import main
 from tactile_push.control import NOTHING_TO_DO
 from tactile_push.control.placing import STAGES
-from tactile_push.control.placing.stages import REGRASPING, SETTLES
+from tactile_push.control.placing.stages import REGRASPING, SETTLES, STEERS
 
 GOAL, SECOND = (-0.02, -0.1), (-0.012, 0.05)
 STRAIGHT = (0.0, 0.0, 0.0, 1.0)
@@ -97,12 +97,12 @@ def test_estimates_and_states_of_goals_may_be_recorded_after_the_periods_that_us
     assert contents(tmp_path / 'out') == contents(bag)
 
 
-def settles():
-    """Return a line on which the law settles, with goals and for a while without estimates."""
-    line = Line(theta=0.35, d=-0.006, late=1, age=0.03, law='settle')
+def lasting(law):
+    """Return a line with goals that do not end, and for a while without estimates."""
+    line = Line(theta=0.2, d=-0.003, late=1, age=0.03, law=law)
     for _ in range(12):
         line.period()
-    line.ask(0.0, 0.1)
+    line.ask(0.005, 0.1)
     line.placing.goal('map', 0.0, STRAIGHT)
     for _ in range(12):
         line.period()
@@ -110,6 +110,8 @@ def settles():
     for _ in range(12):
         line.period()
     line.senses = True
+    for _ in range(6):
+        line.period()
     line.placing.cancel()
     for _ in range(12):
         line.period()
@@ -117,9 +119,10 @@ def settles():
     return line
 
 
-def test_the_law_that_settles_is_made_again_to_the_last_digit(tmp_path):
-    line = settles()
-    assert {STAGES[int(values['stage'])] for values in line.states} == set(SETTLES)
+@pytest.mark.parametrize(('law', 'stages'), [('settle', SETTLES), ('steer', STEERS)])
+def test_laws_whose_goals_do_not_end_are_made_again_to_the_last_digit(law, stages, tmp_path):
+    line = lasting(law)
+    assert {STAGES[int(values['stage'])] for values in line.states} == set(stages)
     bag = line.bag(tmp_path / 'bag')
     (comparison,) = replayed(bag, out=tmp_path / 'out')
     assert (comparison.kept, len(comparison.ticks)) == (0, len(line.ticks) + 1)

@@ -14,6 +14,7 @@ from tactile_push.control.placing.law import PlaceLaw
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Goal, Pushed, centre_of_mass
 from tactile_push.control.placing.settle_law import SettleLaw
+from tactile_push.control.placing.steer_law import SteerLaw
 from tactile_push.mechanics import friction_cone
 from tactile_push.mechanics.resistance import Pressure
 
@@ -27,6 +28,13 @@ def compile_placing() -> None:
     task = law.task()
     assert task is not None
     pushes((task.now, law.goal, task.pushed), task.bounds, 0.0, task.belt, 0, roundabout=True)
+
+
+def compile_steering() -> None:
+    """Compile now, or load, what the law that steers compiles."""
+    law = SteerLaw(0.0, paper.BELT_SPEED, paper.CONTROL_PERIOD)
+    law.goal = 0.0
+    _push(law, (5e-3, 5e-3))
 
 
 def compile_settling() -> None:

@@ -13,10 +13,12 @@ OBJECT_LOST, CONTRADICTED, NOTHING_KNOWN = 'object lost', 'contradiction', 'noth
 REGRASPING = 'regrasping'
 # Of the law that settles, whose goals do not end: by what is known of the object, or without it.
 SETTLING, SETTLING_BLINDLY = SETTLES = ('settling', 'settling by law (18)')
+# The same of the law that steers.
+STEERING, STEERING_BLINDLY = STEERS = ('steering', 'steering by law (18)')
 STAGES = (
     *(NO_GOAL, LIFTED, AWAITING_CONTACT, LEARNING, PLACING, LETTING_GO),
     *(RELEASED, MISSED, CANCELLED, OBJECT_LOST, CONTRADICTED, NOTHING_KNOWN),
-    *(REGRASPING, *SETTLES),
+    *(REGRASPING, *SETTLES, *STEERS),
 )
 FAILURES = frozenset({MISSED, OBJECT_LOST, CONTRADICTED, NOTHING_KNOWN})
 ENDS = FAILURES | {RELEASED, CANCELLED}

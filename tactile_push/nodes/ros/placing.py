@@ -28,7 +28,6 @@ from tactile_push.pipeline.stamps import stamp_of
 
 if TYPE_CHECKING:
     from tactile_push.pipeline.believing import Believing
-    from tactile_push.pipeline.steering import SteerGoals
 
 # For so long of wall time simulated time waits for an estimate [s]: shorter than the plant waits
 # for a command, and longer than active_sensing takes on a busy machine; picked.
@@ -40,8 +39,6 @@ TOLD = ENDS | FINE
 
 class PlaceTopics:
     """Tells `Believing` what goals and estimates arrive, and the finger when to let go.
-
-    The law that steers has goals alone, which `SteerGoals` takes.
 
     Parameters
     ----------
@@ -55,7 +52,6 @@ class PlaceTopics:
         self._node = node
         self._arrived = arrived
         self._placing: Believing | None = None
-        self._taker: Believing | SteerGoals | None = None  # of goals
         self._release: Publisher | None = None
         self._timer: Timer | None = None  # until the moment to let go
         self._waiting: Timer | None = None  # for an estimate, no longer than its patience
@@ -64,8 +60,9 @@ class PlaceTopics:
         self._stage = self._doubt = ''
         node.create_service(Trigger, CANCEL, self._on_cancel)
 
-    def hear_estimates(self) -> Publisher:
-        """Take estimates, until the node is cleaned up; return who says what becomes of goals."""
+    def make(self) -> Publisher:
+        """Take goals and estimates, until the node is cleaned up; return who says of goals."""
+        self._node.make_subscription(PoseStamped, PLACE_GOAL, self._on_goal, PUBLISHED)
         self._node.make_subscription(JointState, SENSING_STATE, self._on_estimate, PUBLISHED)
         return self._node.make_publisher(JointState, PLACE_STATE)
 
@@ -74,14 +71,9 @@ class PlaceTopics:
         self._release = self._node.make_publisher(Bool, PLACE_RELEASE)
         return self._release
 
-    def hear_goals(self) -> None:
-        """Take goals, until the node is cleaned up."""
-        self._node.make_subscription(PoseStamped, PLACE_GOAL, self._on_goal, PUBLISHED)
-
-    def serve(self, placing: 'Believing | None', steering: 'SteerGoals | None' = None) -> None:
+    def serve(self, placing: 'Believing | None') -> None:
         """Let somebody else take goals; None for nobody, as while the node is inactive."""
         self._placing = placing
-        self._taker = placing or steering
         self._answers = True
         self._stage = self._doubt = ''
         self._end_timers()
@@ -130,8 +122,8 @@ class PlaceTopics:
         rotation = (turn.x, turn.y, turn.z, turn.w)
         frame, x = message.header.frame_id, message.pose.position.x
         refusal = INACTIVE
-        if self._taker is not None:
-            refusal = self._taker.goal(frame, x, rotation)
+        if self._placing is not None:
+            refusal = self._placing.goal(frame, x, rotation)
         said = f'x {x:g} m, theta {math.degrees(yaw_of_quaternion(*rotation)):.1f} degrees'
         logger = self._node.get_logger()
         if refusal:
@@ -149,8 +141,8 @@ class PlaceTopics:
             self._arrived()
 
     def _on_cancel(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        stage = INACTIVE if self._taker is None else self._taker.stage
-        response.success = self._taker is not None and self._taker.cancel()
+        stage = INACTIVE if self._placing is None else self._placing.stage
+        response.success = self._placing is not None and self._placing.cancel()
         response.message = f'was {stage}' if response.success else stage
         if response.success:
             self._forget_release()

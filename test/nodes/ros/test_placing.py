@@ -19,6 +19,7 @@ from tactile_push.control.placing.stages import (
     NO_GOAL,
     NOTHING_KNOWN,
     SETTLING_BLINDLY,
+    STEERING_BLINDLY,
 )
 from tactile_push.interface import (
     CANCEL,
@@ -169,7 +170,7 @@ def test_the_law_counts_from_the_next_activation_on(bench):
 def test_the_law_that_steers_takes_goals_and_gives_them_up(bench):
     node = bench.start(PushController, law=STEER, **PATIENT)
     bench.until(lambda: PLACE_GOAL in bench.topics()[1])
-    assert PLACE_STATE not in node._outputs
+    assert PLACE_RELEASE not in node._outputs
     warned = []
     node.get_logger().warning = warned.append
     goals = bench.publisher(PoseStamped, PLACE_GOAL)
@@ -179,12 +180,12 @@ def test_the_law_that_steers_takes_goals_and_gives_them_up(bench):
     goals.publish(goal(x=0.02))
     bench.until(lambda: node._control.steadying.goal == 0.02)
     answer = node._place._on_cancel(Trigger.Request(), Trigger.Response())
-    assert (answer.success, answer.message) == (True, 'was steering')
+    assert (answer.success, answer.message) == (True, f'was {STEERING_BLINDLY}')
     assert math.isnan(node._control.steadying.goal)
     node.set_parameters([RosParameter('law', value=PLACE)])
     node.trigger_deactivate()
     node.trigger_activate()
-    bench.until(lambda: PLACE_STATE in bench.topics()[0])
+    bench.until(lambda: PLACE_RELEASE in bench.topics()[0])
     goals.publish(goal(x=0.01))
     bench.until(lambda: node._steps.placing.goals == 1)  # heard once
 
