@@ -14,6 +14,7 @@ from sensor_msgs.msg import JointState
 from faults.bench import Bench
 from faults.finger import goal
 from tactile_push.control import HELD
+from tactile_push.interface import PLACE
 from tactile_push.testing import field
 
 from .chain import FuzzError
@@ -46,7 +47,7 @@ def send_extremes(bench: Bench, progress: Callable[[str], None] = lambda what: N
         If the finger does not push afterwards.
     """
     finger = bench.finger
-    places = bench.setup.places
+    places = bench.setup.law == PLACE
     topics = _of_placing(bench) if places else _of_pushing(bench)
     sent = 0
     for topic, valid in topics.items():

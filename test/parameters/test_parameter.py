@@ -103,6 +103,7 @@ def test_every_default_is_a_value():
 
 # Quantities without a unit: shares, counts and coefficients.
 WITHOUT_UNIT = {
+    'axes',
     'belt_ripple',
     'edge',
     'image_noise',

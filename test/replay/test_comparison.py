@@ -11,8 +11,9 @@ import pytest
 from tactile_push.replay.comparison import Comparison, ReplayedTick, SensedTick
 
 
-def tick(v_x, theta=0.1):
-    return SimpleNamespace(v_x=v_x, theta=theta, phi=1.5, state='pushing', stop_reason='')
+def tick(v_x, theta=0.1, v_y=0.0):
+    told = {'phi': 1.5, 'state': 'pushing', 'stop_reason': ''}
+    return SimpleNamespace(v_x=v_x, v_y=v_y, theta=theta, **told)
 
 
 def compared(*pairs):
@@ -48,6 +49,13 @@ def test_no_command_is_the_same_as_none_and_another_than_any():
     assert [found.time for found in comparison.different()] == pytest.approx([0.1, 0.2])
 
 
+def test_command_along_the_belt_differs_by_its_last_bit_too():
+    comparison = Comparison('')
+    comparison.add(0.0, tick(0.002, v_y=-0.01), tick(0.002, v_y=-0.01))
+    comparison.add(0.1, tick(0.002, v_y=-0.01), tick(0.002, v_y=math.nextafter(-0.01, 0.0)))
+    assert [found.time for found in comparison.different()] == [0.1]
+
+
 def test_nothing_differs_from_what_was_not_recorded():
     comparison = Comparison('')
     comparison.add(0.0, tick(0.002), None)
@@ -77,6 +85,8 @@ def test_json_has_null_where_there_is_no_number():
                 'v_x_recorded': None,
                 'state': 'pushing',
                 'stop_reason': '',
+                'v_y': 0.0,
+                'v_y_recorded': 0.0,
             }
         ],
         'sensed': [
