@@ -54,9 +54,9 @@ def replay(
     The readings go through the steps that the nodes run, on the recorded stamps, in the recorded
     order, and without waiting: the result is the same every time, to the bit. If nothing else is
     asked for and the bag has `contact_geometry/state` and `push_controller/state`, it is what the
-    nodes gave. With the laws `place` and `settle` that takes `place/state` and
-    `active_sensing/state`, too, and a processor of the same kind. The object is sensed if the
-    parameters of `active_sensing` were recorded or the file has a section for it.
+    nodes gave. With any law but `push` that takes `place/state` and `active_sensing/state`, too,
+    and a processor of the same kind. The object is sensed if the parameters of `active_sensing`
+    were recorded or the file has a section for it.
 
     Parameters
     ----------

@@ -14,7 +14,6 @@ from tactile_push.control import (
     PushControl,
     PushLaw,
     Steadying,
-    Steering,
     Tick,
 )
 from tactile_push.interface import JOINT_STATES, TOPICS, WRIST_JOINT
@@ -44,7 +43,7 @@ def experiment(
     faults: Faults = NO_FAULTS,
     sensor_rate: float | None = None,
     limits: Limits | None = None,
-    steadying: Steadying | Steering | None = None,
+    steadying: Steadying | None = None,
     seed: int = 0,
 ) -> Rollout:
     """Run the control law on the rig, through its sensor and its finger.
@@ -67,7 +66,7 @@ def experiment(
         Readings a second [Hz], a whole number in each control period; one by default.
     limits : Limits, optional
         When the controller stops, which ends the run, and how fast it may go.
-    steadying : Steadying or Steering, optional
+    steadying : Steadying, optional
         What trims theta_d; nothing by default. The run changes it.
     seed : int, optional
         Seed of the random numbers: the same seed gives the same run to the bit.

@@ -4,20 +4,19 @@
 import math
 from types import SimpleNamespace
 
-import numpy as np
 import pytest
 
+from support.sticking_block import PRESSURE
 from tactile_push.control.placing import horizon
 from tactile_push.control.placing.law import NOWHERE
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation
 from tactile_push.control.placing.reachability import Task
 from tactile_push.control.placing.stages import OUT_OF_REACH, UNKNOWN, WITH_RESERVE, WORKSPACE
-from tactile_push.mechanics.resistance import Pressure
 from tactile_push.pipeline.outlook import ReachOutlook
 
 BOUNDS = Bounds(1.54, 2000.0, -0.1, 0.1, -0.024, 0.024, 0.85)
 PUSHED = Pushed(
-    *(0.02375, 0.0135, Pressure(0.0187**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))),
+    *(0.02375, 0.0135, PRESSURE),
     *(0.0, 1.0, 0.0, 0.0),
 )
 TASK = Task(Situation(0.0, 0.1, -0.002, 0.0, 0.0), PUSHED, BOUNDS, 0.4)

@@ -27,6 +27,7 @@ from tactile_push.mechanics.compiled import Array, compiled, equation
 PIECES: Array = 1e-3 * np.array((1.0, 1.5, 2.5, 4.0, 6.0, 10.0, 15.0, 25.0, 45.0, 80.0, 120.0))
 COUNT = len(PIECES)
 SHORTEST, FEWEST = 2e-3, 12  # a step [m], or so many in a piece if they are longer
+STEPS: Array = np.ceil(PIECES / np.maximum(SHORTEST, PIECES / FEWEST)).astype(np.int64)
 RATE = 14.0  # at which what is off is brought back, for each metre of belt; picked
 FASTER = 1.5  # than the slow mode that is at least
 AIMED = math.tan(math.radians(5.0))  # way aside on which a distant goal is approached, of the belt
@@ -135,9 +136,8 @@ def _follow(
     """Write the residuals of a push; their squares are an integral over the belt and a rest."""
     lead = 1.0 / (pushed.l * RATE)  # by how much e, until it is brought back, carries x aside
     for i in range(COUNT):
-        steps = max(1, math.ceil(PIECES[i] / max(SHORTEST, PIECES[i] / FEWEST)))
-        h, beyond = PIECES[i] / steps, 0.0
-        for _ in range(steps):
+        h, beyond = PIECES[i] / STEPS[i], 0.0
+        for _ in range(STEPS[i]):
             wanted = ahead(now, pushed, bounds) + push[i]
             command = min(max(wanted, -bounds.steepest), bounds.steepest)
             now, pushes = bounded_step(now, command, h, pushed, bounds)
@@ -212,11 +212,10 @@ def _begun(beginning: int, now: Situation, goal: float, pushed: Pushed, bounds: 
             size, belt = _PULSES[beginning - 1, 0], _PULSES[beginning - 1, 1]
             push[i] = size if way <= belt else (-size if way <= 2.0 * belt else 0.0)
             continue
-        steps = max(1, math.ceil(PIECES[i] / max(SHORTEST, PIECES[i] / FEWEST)))
-        for _ in range(steps):
+        for _ in range(STEPS[i]):
             command, _ = linear_command(now, goal, pushed, bounds)
-            push[i] += (command - ahead(now, pushed, bounds)) / steps
-            now, _ = bounded_step(now, command, PIECES[i] / steps, pushed, bounds)
+            push[i] += (command - ahead(now, pushed, bounds)) / STEPS[i]
+            now, _ = bounded_step(now, command, PIECES[i] / STEPS[i], pushed, bounds)
     return push
 
 

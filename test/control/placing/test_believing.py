@@ -3,18 +3,17 @@
 
 import math
 
-import numpy as np
 import pytest
 
+from support.sticking_block import PRESSURE
 from tactile_push.control.placing.believing import D_MARGIN, Belief, BelievingLaw
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Pushed
 from tactile_push.mechanics import friction_cone
-from tactile_push.mechanics.resistance import Pressure
 
 BELT_SPEED, PERIOD, LAG = 0.005, 0.1, 0.1
 PUSHED = Pushed(
-    *(0.02375, 0.0135, Pressure(0.0187**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))),
+    *(0.02375, 0.0135, PRESSURE),
     *(*friction_cone(math.inf), 0.0, 0.0),
 )
 BELIEF = Belief(

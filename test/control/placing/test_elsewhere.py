@@ -4,22 +4,18 @@
 
 import math
 
-import numpy as np
 import pytest
 
+from support.sticking_block import BOUNDS, STICKING
 from tactile_push.control.placing.elsewhere import IN_VAIN, Elsewhere
-from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation, centre_of_mass
+from tactile_push.control.placing.model import Goal, Situation, centre_of_mass
 from tactile_push.control.placing.reachability import Task
 from tactile_push.control.placing.regrasp import Moves
-from tactile_push.mechanics.resistance import Pressure
 
-PRESSURE = Pressure(0.0187**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))
-NUMBERS = Pushed(0.02375, 0.0135, PRESSURE, 0.0, 1.0, 0.0, 0.0)  # which sticks
-BOUNDS = Bounds(1.5, 1e9, -0.1, 0.1, -0.022, 0.022, 0.8)
 START = Situation(0.0, 0.35, 0.012, 0.0, 0.0)
-TASK = Task(START, NUMBERS, BOUNDS, 0.2)
+TASK = Task(START, STICKING, BOUNDS, 0.2)
 # Pushed left of the centre of mass at this angle, it moves to the left all the way.
-EXCLUDED = Goal(centre_of_mass(START, NUMBERS) + 0.015, 0.35)
+EXCLUDED = Goal(centre_of_mass(START, STICKING) + 0.015, 0.35)
 NOWHERE_NEAR = Goal(0.5, 0.0)
 MOVES, PERIOD = Moves(0.02, 0.05, 0.005), 0.1
 
@@ -72,7 +68,7 @@ def test_what_has_led_too_far_aside_meanwhile_is_not_gone_for():
     one, aside = elsewhere(), START._replace(x=-0.099)
     one.look(TASK, EXCLUDED)
     # All contacts that lead there are to the left, where the workspace now ends.
-    assert not looked(one, task=Task(aside, NUMBERS, BOUNDS, 0.2))
+    assert not looked(one, task=Task(aside, STICKING, BOUNDS, 0.2))
 
 
 def test_it_goes_back_no_farther_than_there_is_room_for_all_times():

@@ -3,9 +3,9 @@
 
 import math
 
-import numpy as np
 import pytest
 
+from support.sticking_block import PRESSURE
 from tactile_push.control import NO_REASON, NOTHING_TO_DO
 from tactile_push.control.placing.believing import Belief
 from tactile_push.control.placing.law import NOWHERE, PlaceLaw
@@ -24,12 +24,11 @@ from tactile_push.control.placing.stages import (
     RELEASED,
 )
 from tactile_push.mechanics import friction_cone
-from tactile_push.mechanics.resistance import Pressure
 
 BELT_SPEED, PERIOD, PIECE = 0.005, 0.1, 5e-4
 AHEAD = math.pi / 2.0
 PUSHED = Pushed(
-    *(0.02375, 0.0135, Pressure(0.0187**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))),
+    *(0.02375, 0.0135, PRESSURE),
     *(*friction_cone(math.inf), 0.0, 0.0),
 )
 ENDS = (-0.025, 0.025)

@@ -3,16 +3,15 @@
 
 import math
 
-import numpy as np
 import pytest
 
+from support.sticking_block import PRESSURE
 from tactile_push.control.placing.model import Pushed, Situation, follow
 from tactile_push.control.placing.past import Past, on_grid
-from tactile_push.mechanics.resistance import Pressure
 
 PIECE, LAG = 5e-4, 5e-4
 PUSHED = Pushed(
-    *(0.02375, 0.0135, Pressure(0.0187**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))),
+    *(0.02375, 0.0135, PRESSURE),
     *(0.0, 1.0, 0.0, LAG),
 )
 

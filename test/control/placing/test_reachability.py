@@ -4,9 +4,9 @@
 import math
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
+from support.sticking_block import PRESSURE
 from tactile_push.control.placing import horizon
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation, centre_of_mass
 from tactile_push.control.placing.reachability import (
@@ -26,15 +26,13 @@ from tactile_push.control.placing.stages import (
     WORKSPACE,
 )
 from tactile_push.mechanics import friction_cone
-from tactile_push.mechanics.resistance import Pressure
 
 BOUNDS = Bounds(1.54, 2000.0, -0.1, 0.1, -0.024, 0.024, 0.85)
 NOW = Situation(0.0, 0.1, -0.002, 0.0, 0.0)
 
 
 def task(mu_c=math.inf, belt=0.3, now=NOW, bounds=BOUNDS):
-    pressure = Pressure(0.0187**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))
-    pushed = Pushed(0.02375, 0.0135, pressure, *friction_cone(mu_c), 0.0, 0.0)
+    pushed = Pushed(0.02375, 0.0135, PRESSURE, *friction_cone(mu_c), 0.0, 0.0)
     return Task(now, pushed, bounds, belt)
 
 

@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 
+from support.sticking_block import PRESSURE
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation
 from tactile_push.control.placing.reachability import (
     AT_THE_LIMITS,
@@ -16,9 +17,7 @@ from tactile_push.control.placing.reachability import (
 )
 from tactile_push.control.placing.reachable_set import ReachableSet, reachable_set
 from tactile_push.mechanics import friction_cone
-from tactile_push.mechanics.resistance import Pressure
 
-PRESSURE = Pressure(0.0187**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))
 TASK = Task(
     Situation(0.0, 0.1, -0.002, 0.0, 0.0),
     Pushed(0.02375, 0.0135, PRESSURE, *friction_cone(math.inf), 0.0, 0.0),

@@ -5,24 +5,21 @@
 import numpy as np
 from scipy.optimize import least_squares
 
+from support.sticking_block import STICKING
 from tactile_push.control.placing import refinement
 from tactile_push.control.placing.arcs import ARCS
 from tactile_push.control.placing.model import (
     Bounds,
     Goal,
-    Pushed,
     Situation,
 )
-from tactile_push.mechanics.resistance import Pressure
 
-PRESSURE = Pressure(0.0187**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))
-NUMBERS = Pushed(0.02375, 0.0135, PRESSURE, 0.0, 1.0, 0.0, 0.0)  # which sticks
 STEEPEST = 1.5
 BOUNDS = Bounds(STEEPEST, 1e9, -0.1, 0.1, -0.022, 0.022, 0.8)
 
 
 def test_the_least_squares_agree_with_scipy():
-    start, goal, numbers = Situation(0.0, 0.2, 0.003, 0.0, 0.0), Goal(-0.03, -0.1), NUMBERS
+    start, goal, numbers = Situation(0.0, 0.2, 0.003, 0.0, 0.0), Goal(-0.03, -0.1), STICKING
     first = np.array((0.5, -0.4, -0.6, -1.2, 0.08, 0.08, 0.08, 0.18))
     counts = np.array((9, 9, 9, 16))
 

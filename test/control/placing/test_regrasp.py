@@ -5,31 +5,25 @@
 import math
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
+from support.sticking_block import BOUNDS, STICKING
 from tactile_push.control.placing.arcs import ARCS, LENGTH
 from tactile_push.control.placing.model import (
-    Bounds,
     Goal,
-    Pushed,
     Situation,
     centre_of_mass,
     follow,
 )
 from tactile_push.control.placing.reachability import Task
 from tactile_push.control.placing.regrasp import Moves, Regrasp, detour, touches
-from tactile_push.mechanics.resistance import Pressure
 
-PRESSURE = Pressure(0.0187**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))
-NUMBERS = Pushed(0.02375, 0.0135, PRESSURE, 0.0, 1.0, 0.0, 0.0)  # which sticks
-BOUNDS = Bounds(1.5, 1e9, -0.1, 0.1, -0.022, 0.022, 0.8)
 BELT, ACCELERATION = 0.005, 0.05
 MOVES = Moves(0.02, ACCELERATION, BELT, 0.003)
 START = Situation(0.0, 0.35, 0.012, 0.0, 0.0)
 ROOM = 0.05
 # Pushed left of the centre of mass at this angle, it moves to the left all the way.
-EXCLUDED = Goal(centre_of_mass(START, NUMBERS) + 0.015, 0.35)
+EXCLUDED = Goal(centre_of_mass(START, STICKING) + 0.015, 0.35)
 
 
 @pytest.mark.parametrize('way', [1e-5, 1e-3, 0.008, 0.03])
@@ -88,7 +82,7 @@ def test_a_finger_no_faster_than_the_belt_never_leaves_the_object():
 
 
 def test_a_goal_that_sticking_excludes_is_reached_from_another_contact():
-    task = Task(START, NUMBERS, BOUNDS, 0.2)
+    task = Task(START, STICKING, BOUNDS, 0.2)
     assert not task.arrives(EXCLUDED)
 
     found = [one for one in touches(task, EXCLUDED, MOVES, ROOM) if one is not None]
@@ -96,17 +90,17 @@ def test_a_goal_that_sticking_excludes_is_reached_from_another_contact():
     assert found
     for touch in found:
         now = Situation(START.x + touch.detour.across, START.theta, touch.d, 0.0, 0.0)
-        still = centre_of_mass(START, NUMBERS)
-        assert centre_of_mass(now, NUMBERS) == pytest.approx(still, abs=1e-9)
+        still = centre_of_mass(START, STICKING)
+        assert centre_of_mass(now, STICKING) == pytest.approx(still, abs=1e-9)
         for u, belt in zip(touch.plan.push[:ARCS], touch.plan.push[ARCS:], strict=True):
-            now = follow(now, u, belt * LENGTH, NUMBERS)
-        assert centre_of_mass(now, NUMBERS) == pytest.approx(EXCLUDED.x, abs=3e-4)
+            now = follow(now, u, belt * LENGTH, STICKING)
+        assert centre_of_mass(now, STICKING) == pytest.approx(EXCLUDED.x, abs=3e-4)
         assert now.theta == pytest.approx(EXCLUDED.theta, abs=math.radians(0.3))
         assert touch.belt < task.belt
 
 
 def test_a_finger_goes_neither_out_of_the_workspace_nor_farther_back_than_it_may():
-    task = Task(START, NUMBERS, BOUNDS, 0.3)
+    task = Task(START, STICKING, BOUNDS, 0.3)
     assert not any(touches(task, EXCLUDED, MOVES, 0.001))
     # The other contacts that lead there are to the left.
     assert not any(touches(replace(task, bounds=BOUNDS._replace(x_min=0.0)), EXCLUDED, MOVES, ROOM))

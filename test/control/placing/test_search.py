@@ -6,11 +6,10 @@ import math
 import numpy as np
 import pytest
 
+from support.sticking_block import BOUNDS, PRESSURE, STICKING
 from tactile_push.control.placing.arcs import ARCS, LENGTH, UNKNOWNS
 from tactile_push.control.placing.model import (
-    Bounds,
     Goal,
-    Pushed,
     Situation,
     centre_of_mass,
     follow,
@@ -23,18 +22,14 @@ from tactile_push.control.placing.search import (
     search,
     search_roundabout,
 )
-from tactile_push.mechanics.resistance import Pressure
 
-PRESSURE = Pressure(0.0187**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))
-NUMBERS = Pushed(0.02375, 0.0135, PRESSURE, 0.0, 1.0, 0.0, 0.0)  # which sticks
-BOUNDS = Bounds(1.5, 1e9, -0.1, 0.1, -0.022, 0.022, 0.8)
 START = Situation(0.0, 0.2, 0.003, 0.0, 0.0)
 
 
 def searched(goal, most=0.2, roundabout=False):
     found = np.empty((ROUNDABOUT if roundabout else FAMILIES, COLUMNS))
     searching = search_roundabout if roundabout else search
-    searching(START, goal, NUMBERS, BOUNDS, 0.0, most, found)
+    searching(START, goal, STICKING, BOUNDS, 0.0, most, found)
     return found[np.isfinite(found[:, 0])]
 
 
@@ -43,7 +38,7 @@ def followed(row):
     arcs(row, push)
     now = START
     for u, belt in zip(push[:ARCS], push[ARCS:], strict=True):
-        now = follow(now, u, belt * LENGTH, NUMBERS)
+        now = follow(now, u, belt * LENGTH, STICKING)
     return now, push
 
 
@@ -53,7 +48,7 @@ def test_the_best_of_what_it_finds_costs_what_it_misses(goal, roundabout):
     found = searched(goal, roundabout=roundabout)
     row = found[np.argmin(found[:, 0])]
     now, push = followed(row)
-    x, theta = centre_of_mass(now, NUMBERS) - goal.x, now.theta - goal.theta
+    x, theta = centre_of_mass(now, STICKING) - goal.x, now.theta - goal.theta
     belt = push[ARCS:].sum()
     assert math.hypot(1e3 * x, math.degrees(theta)) < 2.0  # one to begin with
     assert row[0] == pytest.approx(belt + (1e3 * x) ** 2 + math.degrees(theta) ** 2, abs=0.5)
@@ -71,7 +66,7 @@ def test_all_that_it_finds_keeps_to_belt_and_steepest_command(roundabout):
 
 
 def test_on_a_belt_too_short_for_the_turn_what_it_finds_misses_the_rest_of_it():
-    wheelbase = (PRESSURE.c_squared + START.d**2 + NUMBERS.l**2) / math.hypot(START.d, NUMBERS.l)
+    wheelbase = (PRESSURE.c_squared + START.d**2 + STICKING.l**2) / math.hypot(START.d, STICKING.l)
     turn = math.hypot(1.0, BOUNDS.steepest) / wheelbase * 0.005  # theta' <= sqrt(1 + U^2)/L
     found = searched(Goal(0.0, -0.3), most=0.005)
     assert found[:, 0].min() > math.degrees(0.5 - turn) ** 2

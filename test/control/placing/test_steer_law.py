@@ -4,21 +4,20 @@
 
 import math
 
-import numpy as np
 import pytest
 
+from support.sticking_block import PRESSURE
 from tactile_push.control import PushLaw
 from tactile_push.control.placing.believing import Belief
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Pushed, Situation, centre_of_mass, follow
 from tactile_push.control.placing.steer_law import SteerLaw
 from tactile_push.mechanics import friction_cone
-from tactile_push.mechanics.resistance import Pressure
 
 BELT_SPEED, PERIOD, PIECE = 0.005, 0.1, 5e-4
 KP, KD, THETA_D = 0.05, 5.0, -0.2
 PUSHED = Pushed(
-    *(0.02375, 0.0135, Pressure(0.0187**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))),
+    *(0.02375, 0.0135, PRESSURE),
     *(*friction_cone(0.3), -12.5, 0.0),
 )
 START = Situation(0.0, 0.05, -0.003, 0.0, 0.0)
