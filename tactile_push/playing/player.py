@@ -42,7 +42,7 @@ QUIET = 2.0  # for which the graph must not change [s]: nodes are discovered one
 PATIENCE = 5.0  # after which the play begins in any case [s]; discovery takes up to 3 s
 ANSWER_TIMEOUT = 1.0  # of the playing thread, which may have to wait for the disk [s]
 LAST_WORDS = 1.0  # for subscribers to acknowledge the last messages [s]; picked
-LAST_FLIGHT = 0.2  # for the last messages, if nobody has to acknowledge them [s]; picked
+LAST_FLIGHT = 0.5  # for the last messages, if somebody need not acknowledge them [s]; picked
 TIME_ENDS = 2**31 * 10**9  # the first time that builtin_interfaces/Time cannot hold [ns]
 
 
@@ -182,6 +182,13 @@ class Player:
             for subscriber in self._node.get_subscriptions_info_by_topic(publisher.topic)
         )
 
+    def _is_not_acknowledged(self, publisher: Publisher) -> bool:
+        """Return whether some subscriber never says that a message has arrived."""
+        return any(
+            subscriber.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT
+            for subscriber in self._node.get_subscriptions_info_by_topic(publisher.topic)
+        )
+
     def _run(self) -> None:
         try:
             self._play()
@@ -190,7 +197,7 @@ class Player:
             for publisher in publishers:
                 left = 0.0 if self._stopping else max(deadline - time.monotonic(), 0.0)
                 publisher.wait_for_all_acked(Duration(seconds=left))
-            if not self._stopping and any(map(_is_best_effort, publishers)):
+            if not self._stopping and any(map(self._is_not_acknowledged, publishers)):
                 time.sleep(LAST_FLIGHT)
         except Exception as error:
             self.error = error
@@ -288,10 +295,6 @@ def _is_another_version(topic: Topic) -> bool:
     except (ValueError, LookupError):  # nobody knows
         return False
     return bool(recorded) and not same_fields(topic.type_name, topic.definition, installed)
-
-
-def _is_best_effort(publisher: Publisher) -> bool:
-    return bool(publisher.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT)
 
 
 def profile_of(offer: Offer) -> QoSProfile:

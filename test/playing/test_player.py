@@ -180,10 +180,13 @@ def test_clock_says_each_messages_time_before_it_and_never_goes_back(graph, tmp_
             assert message.data <= now
 
 
-def test_last_message_that_nobody_acknowledges_has_time_to_arrive(graph, tmp_path, monkeypatch):
+@pytest.mark.parametrize('reliability', ['best_effort', 'reliable'])
+def test_last_message_that_nobody_acknowledges_has_time_to_arrive(
+    graph, tmp_path, monkeypatch, reliability
+):
     monkeypatch.setattr(playing, 'LAST_FLIGHT', 0.7)
     graph.listen(Int64, '/number', reliability=ReliabilityPolicy.BEST_EFFORT)
-    offer = {'depth': 10, 'reliability': 'best_effort', 'durability': 'volatile'}
+    offer = {'depth': 10, 'reliability': reliability, 'durability': 'volatile'}
     graph.play(part_of(write(tmp_path / 'bag', [5, 10], qos=[offer])))
     graph.spin_until(lambda: len(graph.numbers()) == 2)
     graph.spin_until(lambda: graph.ended)

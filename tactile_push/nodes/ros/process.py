@@ -3,6 +3,7 @@
 """A node as a process: starts, spins, and ends without a traceback."""
 
 import atexit
+import inspect
 import os
 import re
 import signal
@@ -70,6 +71,9 @@ def run(node_class: type[Node]) -> int:
         exit_after(FAREWELL, status)
         rclpy.try_shutdown()
         return status
+    # rclpy seeks the caller of the first message that is logged in the files of all modules, and
+    # Python remembers them. On a loaded machine that takes half a second, which no tick has.
+    inspect.getmodule(run.__code__)
     executor = Executor()
     executor.add_node(node)
     status = 0

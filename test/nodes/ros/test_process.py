@@ -233,6 +233,34 @@ sys.exit(process.run(Own))
     assert (done.returncode, done.stdout, done.stderr) == (0, 'waits\ndone\n', '')
 
 
+def test_first_message_that_is_logged_keeps_no_tick_waiting(environment):
+    # rclpy seeks its caller among the files of all modules, and looks at each file that it has not
+    # seen before. On a loaded machine a look takes a millisecond, and there are hundreds of files.
+    program = """
+class Logs(Node):
+    NAME = 'logs'
+
+    def __init__(self):
+        super().__init__(self.NAME)
+        self.create_timer(0.01, self.tick)
+
+    def tick(self):
+        looks = []
+        real = os.path.realpath
+        os.path.realpath = lambda path: looks.append(path) or real(path)
+        self.get_logger().info('first')
+        os.path.realpath = real
+        print(len(looks), len(sys.modules))
+        signal.raise_signal(signal.SIGINT)
+
+sys.exit(process.run(Logs))
+"""
+    done = run_program(environment, program)
+    looks, modules = map(int, done.stdout.split())
+    assert modules > 300
+    assert looks < 20
+
+
 def test_help_lists_every_parameter_with_default_and_unit(environment):
     done = finish(environment, 'contact_geometry', '--help')
     assert (done.returncode, done.stderr) == (0, '')
