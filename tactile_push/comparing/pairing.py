@@ -12,10 +12,10 @@ from tactile_push.bags.headers import HeaderStamps
 
 # Messages that may wait for their partners in the other bag; with more, the oldest has none. Picked
 # to keep memory small: ten seconds of a bag with a thousand messages a second.
-_MOST_MESSAGES = 10_000
-_MOST_BYTES = 16_000_000
+MOST_MESSAGES = 10_000
+MOST_BYTES = 16_000_000
 # Messages after which a topic no longer tells which bag is behind; picked.
-_LATELY = 1000
+LATELY = 1000
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,8 +132,8 @@ class _Side:
 
     def give_up(self) -> Iterator[_Waiting]:
         """Yield the messages that cannot wait any longer."""
-        while len(self.waiting) > _MOST_MESSAGES or (
-            self._bytes > _MOST_BYTES and len(self.waiting) > 1
+        while len(self.waiting) > MOST_MESSAGES or (
+            self._bytes > MOST_BYTES and len(self.waiting) > 1
         ):
             yield self._remove(next(iter(self.waiting)))
 
@@ -161,14 +161,14 @@ class _Pace:
         self._sides = a, b
         self._read = 0
         self._topic = ''
-        self._in_both = -_LATELY  # number of the message that showed it
+        self._in_both = -LATELY  # number of the message that showed it
 
     def next_to_read(self) -> _Side | None:
         """Return the bag to read, or None if both have ended."""
         a, b = self._sides
         if a.ended or b.ended:
             return None if a.ended and b.ended else b if a.ended else a
-        if self._read - self._in_both < _LATELY:
+        if self._read - self._in_both < LATELY:
             newest = a.newest[self._topic], b.newest[self._topic]
             if newest[0] != newest[1]:
                 return a if newest[0] < newest[1] else b

@@ -4,10 +4,12 @@
 
 import signal
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 
 import pytest
 from geometry_msgs.msg import TwistStamped
 from lifecycle_msgs.msg import Transition
+from rclpy.node import NodeNameNonExistentError
 
 from tactile_push.doctor import MISSING, RIGHT, WRONG, findings
 from tactile_push.doctor.looking import hearing_readings, look
@@ -58,8 +60,9 @@ def looked(rig, monkeypatch):
                 if name.startswith('doctor_'):
                     assert namespace == f'/{LEFT}'
                     offered.add('')
-                    kinds = node.get_publisher_names_and_types_by_node(name, namespace)
-                    offered.update(topic for topic, _ in kinds)
+                    with suppress(NodeNameNonExistentError):  # it may just have gone
+                        kinds = node.get_publisher_names_and_types_by_node(name, namespace)
+                        offered.update(topic for topic, _ in kinds)
             return future.done()
 
         with ThreadPoolExecutor(1) as pool:

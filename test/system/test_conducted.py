@@ -25,7 +25,7 @@ def test_controller_starts_when_the_object_is_sensed(
     nodes.start('sensor_driver', {**device, **simulated})
     nodes.start('contact_geometry', simulated, config=config)
     nodes.start('push_controller', {'autostart': False, **simulated}, config=config)
-    experiment = nodes.start('experiment', {'bag': str(bag), 'steps': 200, **simulated})
+    experiment = nodes.start('experiment', {'bag': str(bag), 'steps': 40, **simulated})
     others = {'contact': 3, 'push_controller/state': 2}  # the observer, too
     observer.wait_for(
         lambda: (
@@ -40,7 +40,7 @@ def test_controller_starts_when_the_object_is_sensed(
     assert experiment.wait(PATIENCE) == 0
     pushed = read_states(bag, '/push_controller/state')
     sensed = read_states(bag, '/active_sensing/state')
-    assert len(pushed['stamp']) >= 200
+    assert len(pushed['stamp']) >= 40
     # When all have found one another only they know: the first ones may not be in the bag.
     assert len(sensed['stamp']) > 0
     assert sensed['stamp'][0] >= pushed['stamp'][0]

@@ -181,6 +181,9 @@ def test_hardware_like_loop_settles_and_simulated_time_goes_on(rig: Rig, observe
         sensor_latency=0.02,
     )
     observer.wait_for(lambda: rig.states and field(rig.states[-1], 'ticks') > 300, '300 ticks')
+    observer.wait_for(
+        lambda: seconds(rig.truth[-1]) >= seconds(rig.states[-1]), 'the truth of that time'
+    )
     theta = np.array([field(m, 'theta') for m in rig.truth])
     assert settle_step(theta, math.radians(-10.0), math.radians(3.0)) is not None
     assert field(rig.states[-1], 'ticks_lost') == 0.0
