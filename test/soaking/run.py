@@ -34,6 +34,7 @@ PLANT = {
     'command_timeout': 5.0,
 }
 STALLED = 30.0  # without a tick for so long the run is over [s of wall time]
+COMPILED = 300.0  # the same before the first tick: the nodes may compile first
 LOOK = 36.0  # between looks at the memory [s of simulated time]
 BAND = math.radians(3.0)
 AFTERMATH = 1.0  # after a fault, before what follows is no longer put down to it [s]
@@ -220,8 +221,9 @@ class Soak:
             for name, process in self._nodes.running.items():
                 if process.poll() is not None:
                     raise BrokenPromiseError(f'{name} ended with status {process.returncode}')
-            if time.monotonic() - self._heard_at > STALLED:
-                raise BrokenPromiseError(f'no tick for {STALLED:g} s after {self._now:.1f} s')
+            patience = COMPILED if self._state is None else STALLED
+            if time.monotonic() - self._heard_at > patience:
+                raise BrokenPromiseError(f'no tick for {patience:g} s after {self._now:.1f} s')
 
 
 def resident_megabytes(pid: int) -> float:
