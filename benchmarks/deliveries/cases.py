@@ -13,7 +13,7 @@ from tactile_push.control.limits import RETREAT
 from tactile_push.control.placing.horizon import ROUNDS, pushes, refined
 from tactile_push.control.placing.model import Bounds, Goal, Situation, ahead, follow
 from tactile_push.control.placing.reachability import Task, reach, with_reserve
-from tactile_push.control.placing.regrasp import Moves, touches
+from tactile_push.control.placing.regrasp import Moves, Touch, touches
 from tactile_push.control.placing.search import FAMILIES
 from tactile_push.control.placing.stages import AT_THE_LIMITS, OUT_OF_REACH, WITH_RESERVE
 from tactile_push.estimation import Edge, edges_of
@@ -110,7 +110,7 @@ def case(seed: int, group: Group) -> Case:
     verdict = reach(task, goal).verdict
     if verdict == WITH_RESERVE and not with_reserve(_held(task)).arrives(goal):
         verdict = AT_THE_LIMITS
-    if group.axes == 2 and verdict == OUT_OF_REACH and any(touches(task, goal, MOVES, RETREAT)):
+    if group.axes == 2 and verdict == OUT_OF_REACH and any(_from_elsewhere(task, goal)):
         verdict = FROM_ELSEWHERE
     return Case(config, edge, kind, goal, task, verdict, seed)
 
@@ -135,8 +135,14 @@ def long_search(task: Task, goal: Goal) -> float:
 
 def shortest_from_elsewhere(task: Task, goal: Goal) -> float:
     """Return the shortest belt [m] by way of another contact; NaN if none leads to the goal."""
-    found = (touch.belt for touch in touches(task, goal, MOVES, RETREAT) if touch is not None)
-    return min(found, default=math.nan)
+    return min((touch.belt for touch in _from_elsewhere(task, goal)), default=math.nan)
+
+
+def _from_elsewhere(task: Task, goal: Goal) -> Iterator[Touch]:
+    """Yield the contacts that lead to a goal."""
+    for touch in touches(task, goal, MOVES, RETREAT):
+        if touch is not None and touch.arrives:
+            yield touch
 
 
 def _length(task: Task, goal: Goal, way: float) -> float:

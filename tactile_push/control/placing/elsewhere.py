@@ -6,13 +6,20 @@ from collections.abc import Iterator
 
 from tactile_push.control.placing.model import Goal
 from tactile_push.control.placing.reachability import Task
-from tactile_push.control.placing.regrasp import THERE, Moves, Regrasp, Touch, detour, fits, touches
+from tactile_push.control.placing.regrasp import (
+    THERE,
+    Detour,
+    Moves,
+    Regrasp,
+    Touch,
+    detour,
+    touches,
+)
 
-# Control periods in a row without a plan that arrives, after which another contact is looked for:
-# by then the planner has looked with reserve and without. Later the object may have drifted to the
-# end of the workspace. If there is none, as many pass again, and twice as many after another touch;
-# picked.
-IN_VAIN = 8
+# Control periods in a row without a plan that arrives, after which the finger leaves: later the
+# object may have drifted to the end of the workspace. After another touch more of them; picked.
+IN_VAIN, AFTER_TOUCH = 4, 24
+STAY = Detour(0.0, 0.0, 0.0, 0.0)  # at the contact that was left
 
 
 class Elsewhere:
@@ -46,7 +53,7 @@ class Elsewhere:
         self.regrasps = 0
         self._in_vain = 0  # periods in a row without a plan that arrives
         self._tries: Iterator[Touch | None] | None = None
-        self._found: list[Touch] = []
+        self._tried: list[Touch] = []
 
     def count(self, arrives: bool) -> None:
         """Take note whether the plan of a period arrives as things most likely are."""
@@ -57,36 +64,62 @@ class Elsewhere:
         """Whether it is time to look for another contact."""
         return self._moves is not None and self._in_vain >= IN_VAIN
 
-    def look(self, task: Task, goal: Goal) -> bool:
-        """Try one contact, which is what there is time for in a period; leave when all are tried.
+    def leave(self, task: Task, nearest: float) -> bool:
+        """Leave the object for another contact; return whether there is room for it.
+
+        Where that is shows meanwhile: the object lies still, while the finger has time to look.
 
         Parameters
         ----------
-        task, goal : Task, Goal
-            From where and where to.
-
-        Returns
-        -------
-        bool
-            Whether the finger leaves the object.
+        task : Task
+            From where.
+        nearest : float
+            How near to the goal a plan from this contact comes, see `Plan.merit`.
         """
         assert self._moves is not None
+        self._left, self._nearest = task, nearest
+        self._in_vain = IN_VAIN - AFTER_TOUCH
+        if detour(task.now, task.now.d, self._moves).back > self._room - self._behind:
+            return False
+        self._regrasp, self._tries = Regrasp(self._moves), None
+        self.regrasps += 1
+        return True
+
+    def look(self, goal: Goal) -> None:
+        """Try one contact, which is what there is time for in a period, until one is gone for.
+
+        Parameters
+        ----------
+        goal : Goal
+            Where to.
+        """
+        assert self._moves is not None and self._regrasp is not None
+        if self._regrasp.goes:
+            return
         room = self._room - self._behind
         if self._tries is None:
-            self._tries, self._found = touches(task, goal, self._moves, room), []
-        for touch in self._tries:
-            if touch is not None:
-                self._found.append(touch)
-            return False
-        self._in_vain, self._tries = 0, None
-        for touch in sorted(self._found, key=lambda one: one.belt):
-            way = detour(task.now, touch.d, self._moves)
-            if fits(way, task.now, task.bounds, room):  # from where the tries have led, too
-                self._regrasp = Regrasp(way, self._moves)
-                self.regrasps += 1
-                self._in_vain = -IN_VAIN
-                return True
-        return False
+            self._tries, self._tried = touches(self._left, goal, self._moves, room), []
+        try:
+            touch = next(self._tries)
+        except StopIteration:
+            self._go()
+            return
+        if touch is not None:
+            self._tried.append(touch)
+        found = self._regrasp.is_nearly_back and any(one.arrives for one in self._tried)
+        if found or room < self._moves.belt_speed * self._period:
+            self._go()
+
+    def _go(self) -> None:
+        """Go for the best contact, or back to the one that was left if none comes nearer."""
+        assert self._regrasp is not None
+        room, self._tries = self._room - self._behind, None
+        for one in sorted(self._tried, key=_rank):
+            is_nearer = one.arrives or one.plan.merit < self._nearest
+            if is_nearer and self._regrasp.more(one.detour) <= room:
+                self._regrasp.go(one.detour)
+                return
+        self._regrasp.go(STAY)
 
     @property
     def is_clear(self) -> bool:
@@ -118,3 +151,8 @@ class Elsewhere:
         self._behind -= velocity[1] * seconds
         if self._regrasp is not None:
             self._regrasp.pass_time(seconds, velocity)
+
+
+def _rank(one: Touch) -> tuple[bool, float]:
+    """Return what speaks against a contact: not to lead to the goal, and belt or misses."""
+    return not one.arrives, one.belt if one.arrives else one.plan.merit

@@ -35,6 +35,7 @@ NOWHERE = Goal(math.nan, math.nan)  # no goal
 ACTING = (LEARNING, PLACING, LETTING_GO, REGRASPING)
 KNOWN = 1e-3  # standard deviation of d below which the law commits itself [m]
 VAGUE = 2e-3  # the same beyond which no other contact is looked for [m]; picked
+STILL = 0.1  # of the belt's speed, with which a finger that leaves may still go across; picked
 LEARNED_SHARE = 0.08  # of the belt, after which it does so anyhow; picked
 SPREADS = 1.0  # deviations of d that are kept from the edge's ends beside `D_MARGIN`
 # Nothing is let go of while less is known than these standard deviations [m, rad]: so much belt [m]
@@ -238,6 +239,7 @@ class PlaceLaw(BelievingLaw):
             self.phi = motion_angle(self._finish(), 1.0)
             return
         if self.stage == REGRASPING:
+            self._elsewhere.look(self.goal)
             self.away = self._elsewhere.velocity()
             return
         if self.returns:
@@ -258,8 +260,8 @@ class PlaceLaw(BelievingLaw):
         if self.stage == LEARNING:
             slippery = _others(belief)[0]
             u = telling_command(now, belief.pushed, slippery, bounds, belief.spread, self._aim)
-        elif self._looks_elsewhere(belief):
-            u = ahead(now, belief.pushed, bounds)
+        elif self._leaves(now, belief):
+            u = 0.0
         else:
             u = self._place(now, belief, bounds, self.belt - self.used)
         self.phi = motion_angle(u, 1.0) if math.isfinite(u) else AHEAD
@@ -297,16 +299,21 @@ class PlaceLaw(BelievingLaw):
             return ahead(now, belief.pushed, bounds)
         return plan.command(self._piece)
 
-    def _looks_elsewhere(self, belief: Belief) -> bool:
-        """Look for another contact if that is due; return whether it takes the place of a plan."""
+    def _leaves(self, now: Situation, belief: Belief) -> bool:
+        """Leave for another contact if it is time; return whether that takes the place of a plan.
+
+        Readings end when the finger begins to leave, and the object moves along while it touches.
+        So it stands still first.
+        """
         task = self.task()
         if not self._elsewhere.is_due or belief.spread.d > VAGUE or task is None:
             return False
-        if self._elsewhere.look(task, self.goal):
-            self.stage, self.plan = REGRASPING, None
-            self.away = self._elsewhere.velocity()
-        if not self._elsewhere.is_due:
-            self._planner.drop()
+        if abs(now.u) <= STILL:
+            nearest = math.inf if self.plan is None else self.plan.merit
+            if self._elsewhere.leave(task, nearest):
+                self.stage, self.plan = REGRASPING, None
+                self.away = self._elsewhere.velocity()
+                self._planner.drop()
         return True
 
     def _least(self, spread: Spread) -> float:

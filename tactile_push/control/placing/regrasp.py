@@ -11,13 +11,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from tactile_push.control.placing.horizon import Plan, at_once
-from tactile_push.control.placing.model import Bounds, Goal, Situation
+from tactile_push.control.placing.model import Bounds, Goal, Situation, centre_of_mass
 from tactile_push.control.placing.planner import LOOK_TRIES
 from tactile_push.control.placing.reachability import Task, with_reserve
 
 TOUCHES = 11  # places on the edge that are tried
 NEAREST = 2e-3  # the least way along the edge that is worth a detour [m]; picked
 THERE = 1e-4  # so near to its place the finger has got there [m]
+NEARLY = 2e-3  # so near to the end of its way back it slows down [m]
 LATE = 0.01  # belt by which the object may come later than expected [m]; picked
 
 
@@ -88,6 +89,7 @@ class Detour:
     across: float  #: way across the belt [m]
     back: float  #: way along it, by which the line of pushing moves on [m]
     belt: float  #: belt that passes [m]
+    gap: float  #: between finger and edge along the belt before it goes across [m]
 
 
 @dataclass(frozen=True)
@@ -102,6 +104,11 @@ class Touch:
     def belt(self) -> float:
         """The belt until the goal [m]."""
         return self.detour.belt + self.plan.length
+
+    @property
+    def arrives(self) -> bool:
+        """Whether the plan gets to the goal."""
+        return self.plan.arrives
 
 
 def detour(now: Situation, d: float, moves: Moves) -> Detour:
@@ -121,13 +128,15 @@ def detour(now: Situation, d: float, moves: Moves) -> Detour:
     across, ahead = way * math.cos(now.theta), way * math.sin(now.theta)
     over = moves.time(abs(across))
     # The gap falls or grows on the way across: its ends decide.
-    least = max(moves.clearance, moves.clearance - ahead + moves.belt_speed * over)
-    back = moves.retreat(least)
-    return Detour(across, back, back + ahead)
+    gap = max(moves.clearance, moves.clearance - ahead + moves.belt_speed * over)
+    back = moves.retreat(gap)
+    return Detour(across, back, back + ahead, gap)
 
 
 def touches(task: Task, goal: Goal, moves: Moves, room: float) -> Iterator[Touch | None]:
     """Try contacts along the edge, with reserve, and without if none leads to the goal then.
+
+    Likely ones come first.
 
     Parameters
     ----------
@@ -143,13 +152,12 @@ def touches(task: Task, goal: Goal, moves: Moves, room: float) -> Iterator[Touch
     Yields
     ------
     Touch or None
-        After each plan the contact that it begins at; None if it does not arrive.
+        After each plan the contact that it begins at; None if the object is lost from there.
     """
     now, found = task.now, False
     for limited in (with_reserve(task), task):
         bounds, belt = limited.bounds, limited.belt
-        for k in range(TOUCHES):
-            d = bounds.d_min + (bounds.d_max - bounds.d_min) * (k + 0.5) / TOUCHES
+        for d in _likely_first(limited, goal):
             way = detour(now, d, moves)
             left = belt - way.belt
             if abs(d - now.d) < NEAREST or left < 0.0 or not fits(way, now, task.bounds, room):
@@ -157,11 +165,26 @@ def touches(task: Task, goal: Goal, moves: Moves, room: float) -> Iterator[Touch
             there = Situation(now.x + way.across, now.theta, d, 0.0, 0.0)
             then = Task(there, task.pushed, bounds, left)
             plan = at_once(then.planning(goal, tries=LOOK_TRIES))
-            arrives = plan is not None and plan.arrives
-            found |= arrives
-            yield Touch(d, way, plan) if plan is not None and arrives else None
+            found |= plan is not None and plan.arrives
+            yield Touch(d, way, plan) if plan is not None else None
         if found:
             return
+
+
+def _likely_first(task: Task, goal: Goal) -> list[float]:
+    """Return contacts along the edge, first those whose drift at the goal's angle leads there.
+
+    On the leaf of such a contact the object, once it has that angle, moves on towards the goal.
+    """
+    now, pushed, bounds = task.now, task.pushed, task.bounds
+    wanted = math.atan2(goal.x - centre_of_mass(now, pushed), task.belt)
+
+    def aside(d: float) -> float:
+        leaf = d + pushed.r * (now.theta - goal.theta)
+        return abs(goal.theta + math.atan2(leaf, pushed.l) + wanted)
+
+    step = (bounds.d_max - bounds.d_min) / TOUCHES
+    return sorted((bounds.d_min + (k + 0.5) * step for k in range(TOUCHES)), key=aside)
 
 
 def fits(way: Detour, now: Situation, bounds: Bounds, room: float) -> bool:
@@ -176,26 +199,46 @@ def fits(way: Detour, now: Situation, bounds: Bounds, room: float) -> bool:
 
 
 class Regrasp:
-    """A finger on its way to another contact.
+    """A finger on its way to another contact: back, and across once it is told where to.
 
     Parameters
     ----------
-    way : Detour
-        The way.
     moves : Moves
         How the finger gets about.
 
     Attributes
     ----------
+    goes : bool
+        Whether it was told.
     is_clear : bool
-        Whether the finger has gone back, so that what it feels is another contact.
+        Whether it was and has gone back, so that what it feels is another contact.
     """
 
-    def __init__(self, way: Detour, moves: Moves) -> None:
+    def __init__(self, moves: Moves) -> None:
         self._moves = moves
-        self._across, self._back = way.across, -way.back  # what is left of both [m]
-        self._belt = way.belt + LATE  # until the object has come [m]
-        self.is_clear = False
+        self._across, self._back = 0.0, -moves.retreat(moves.clearance)  # what is left [m]
+        self._gone = 0.0  # way back [m]
+        self._gap = 0.0  # between finger and edge along the belt [m]
+        self._belt = math.inf  # until the object has come [m]
+        self._waits = self.goes = self.is_clear = False
+
+    def go(self, way: Detour) -> None:
+        """Take a way that begins at the contact that was left."""
+        back = self.more(way)
+        self._belt = self._gap + back + way.belt - way.back + LATE
+        self._across, self._back = way.across, -back
+        self.goes = True
+
+    def more(self, way: Detour) -> float:
+        """Return how much farther back the finger has to go for a way [m]."""
+        if not self._waits:
+            return max(way.back - self._gone, 0.0)
+        return self._moves.retreat(way.gap - self._gap) if way.gap > self._gap else 0.0
+
+    @property
+    def is_nearly_back(self) -> bool:
+        """Whether the finger slows down at the end of its way back."""
+        return abs(self._back) <= NEARLY
 
     @property
     def is_late(self) -> bool:
@@ -204,13 +247,20 @@ class Regrasp:
 
     def pass_time(self, seconds: float, velocity: tuple[float, float]) -> None:
         """Take note of the time [s] for which the finger had a velocity across and along [m/s]."""
+        belt = self._moves.belt_speed * seconds
         self._across -= velocity[0] * seconds
         self._back -= velocity[1] * seconds
-        self._belt -= self._moves.belt_speed * seconds
+        self._gone -= velocity[1] * seconds
+        self._gap -= velocity[1] * seconds + belt
+        self._belt -= belt
 
     def velocity(self, period: float) -> tuple[float, float]:
         """Return the velocity across and along the belt for a period [s, m/s]."""
-        self.is_clear = self.is_clear or abs(self._back) <= THERE
-        if not self.is_clear:
-            return 0.0, self._moves.towards(self._back, period)
-        return self._moves.towards(self._across, period), 0.0
+        is_back = abs(self._back) <= THERE
+        self.is_clear = self.is_clear or (self.goes and is_back)
+        if self.is_clear:
+            return self._moves.towards(self._across, period), 0.0
+        if is_back:  # and does not know where to: it keeps away from the edge
+            self._waits = True
+            self._back -= self._moves.belt_speed * period
+        return 0.0, self._moves.towards(self._back, period)

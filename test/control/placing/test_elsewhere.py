@@ -3,11 +3,12 @@
 """When the finger leaves the object, and that it knows its way back."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
 from support.sticking_block import BOUNDS, STICKING
-from tactile_push.control.placing.elsewhere import IN_VAIN, Elsewhere
+from tactile_push.control.placing.elsewhere import AFTER_TOUCH, IN_VAIN, Elsewhere
 from tactile_push.control.placing.model import Goal, Situation, centre_of_mass
 from tactile_push.control.placing.reachability import Task
 from tactile_push.control.placing.regrasp import Moves
@@ -16,6 +17,7 @@ START = Situation(0.0, 0.35, 0.012, 0.0, 0.0)
 TASK = Task(START, STICKING, BOUNDS, 0.2)
 # Pushed left of the centre of mass at this angle, it moves to the left all the way.
 EXCLUDED = Goal(centre_of_mass(START, STICKING) + 0.015, 0.35)
+TOO_FAR = EXCLUDED._replace(x=EXCLUDED.x + 0.05)  # for the belt, but in the same direction
 NOWHERE_NEAR = Goal(0.5, 0.0)
 MOVES, PERIOD = Moves(0.02, 0.05, 0.005), 0.1
 
@@ -39,61 +41,61 @@ def test_a_finger_of_one_axis_never_leaves():
     assert not elsewhere(None).is_due
 
 
-def looked(one, goal=EXCLUDED, task=TASK):
-    """Look until the finger leaves or all is tried; return whether it leaves."""
-    while one.is_due:
-        if one.look(task, goal):
-            return True
-    return False
-
-
-def test_it_leaves_for_the_contact_with_the_least_belt():
-    one = elsewhere()
-    assert looked(one)
-    assert (one.regrasps, one.is_clear, one.is_late) == (1, False, False)
-    assert one.velocity()[1] < 0.0
-
-
-def test_where_no_contact_leads_to_the_goal_it_stays_and_looks_again_later():
-    one = elsewhere()
-    assert not looked(one, NOWHERE_NEAR)
-    assert one.regrasps == 0
-    for _ in range(IN_VAIN):
-        assert not one.is_due
-        one.count(arrives=False)
-    assert one.is_due
-
-
-def test_what_has_led_too_far_aside_meanwhile_is_not_gone_for():
-    one, aside = elsewhere(), START._replace(x=-0.099)
-    one.look(TASK, EXCLUDED)
-    # All contacts that lead there are to the left, where the workspace now ends.
-    assert not looked(one, task=Task(aside, STICKING, BOUNDS, 0.2))
-
-
-def test_it_goes_back_no_farther_than_there_is_room_for_all_times():
-    one = elsewhere(room=0.03)
-    assert looked(one)
+def left(goal=EXCLUDED, task=TASK, nearest=math.inf, room=0.04):
+    """Return one that has left the object and gone back, and the velocities of the way."""
+    one, way = elsewhere(room=room), []
+    assert one.leave(task, nearest)
     while not one.is_clear:
-        one.pass_time(PERIOD, one.velocity())
-        one.velocity()
-    for _ in range(2 * IN_VAIN):
+        one.look(goal)
+        way.append(one.velocity())
+        one.pass_time(PERIOD, way[-1])
+        assert len(way) < 100
+    return one, way
+
+
+def test_it_goes_back_for_a_contact_that_leads_to_the_goal():
+    one, way = left()
+    assert (one.regrasps, one.is_late) == (1, False)
+    assert {v_x for v_x, _ in way[:-1]} == {0.0}
+    # It goes back without a pause, and then to the left.
+    assert max(v_y for _, v_y in way[:-1]) < 0.0 > one.velocity()[0]
+
+
+def test_it_leaves_once_while_no_plan_arrives_and_for_a_while_not_again():
+    one, _ = left()
+    for _ in range(AFTER_TOUCH):
         assert not one.is_due
         one.count(arrives=False)
     assert one.is_due
-    assert not looked(one)
+
+
+def test_where_no_contact_leads_to_the_goal_it_keeps_away_until_all_are_tried_and_stays():
+    # No plan from elsewhere comes as near as the one from here is said to.
+    one, way = left(NOWHERE_NEAR, nearest=0.0)
+    assert one.velocity()[0] == 0.0
+    assert [v_y for _, v_y in way[-4:-1]] == pytest.approx([-MOVES.belt_speed] * 3)
+
+
+def test_where_no_contact_leads_to_the_goal_it_goes_for_the_one_that_comes_nearest():
+    one, _ = left(TOO_FAR, replace(TASK, belt=0.08), room=0.06)
+    assert one.velocity()[0] < 0.0
+
+
+def test_it_does_not_leave_without_the_room_to_go_back():
+    one = elsewhere(room=0.004)
+    assert not one.leave(TASK, math.inf)
+    assert (one.is_due, one.regrasps) == (False, 0)
+
+
+def test_it_goes_back_no_farther_than_there_is_room():
+    _, way = left(NOWHERE_NEAR, room=0.006)
+    assert -sum(v_y for _, v_y in way) * PERIOD <= 0.006 + 1e-9
 
 
 def test_it_goes_home_as_far_as_it_has_gone_back():
-    one = elsewhere()
-    assert looked(one)
-    assert one.is_home
-    y = 0.0
-    while not one.is_clear:
-        v_x, v_y = one.velocity()
-        one.pass_time(PERIOD, (v_x, v_y))
-        y += v_y * PERIOD
-        one.velocity()
+    assert elsewhere().is_home
+    one, way = left()
+    y = sum(v_y for _, v_y in way) * PERIOD
     assert y < -0.002
     assert not one.is_home
     periods = 0
@@ -109,7 +111,11 @@ def test_it_goes_home_as_far_as_it_has_gone_back():
 
 def test_a_new_goal_begins_anew():
     one = elsewhere()
-    assert looked(one)
+    assert one.leave(TASK, math.inf)
+    one.look(NOWHERE_NEAR)
     one.begin()
     assert (one.regrasps, one.is_due) == (0, False)
-    assert not math.isnan(one.velocity()[0])  # on its way it goes on
+    while not one.is_clear:  # on its way it goes on, for the new goal
+        one.look(EXCLUDED)
+        one.pass_time(PERIOD, one.velocity())
+    assert one.velocity()[0] < 0.0

@@ -293,10 +293,13 @@ def test_a_goal_that_no_push_reaches_is_gone_for_from_another_contact():
     one.update(0.35)
     assert one.stage == REGRASPING
     used = one.used
+    aside = 0.0
     while one.away != (0.0, 0.0):
+        aside += one.away[0] * PERIOD
         one.pass_time(PERIOD)
         one.go_on()
     assert one.used > used + 0.005
+    assert aside < -0.002  # to where it pushes the object to the right
     # What it feels then is another one, of which nothing is believed yet.
     one.pass_time(PERIOD)
     one.update(0.35)

@@ -81,11 +81,17 @@ def test_a_finger_no_faster_than_the_belt_never_leaves_the_object():
         Moves(BELT, ACCELERATION, BELT)
 
 
+def arriving(task, room=ROOM):
+    """Return the contacts that lead to the excluded goal."""
+    tried = touches(task, EXCLUDED, MOVES, room)
+    return [one for one in tried if one is not None and one.plan.arrives]
+
+
 def test_a_goal_that_sticking_excludes_is_reached_from_another_contact():
     task = Task(START, STICKING, BOUNDS, 0.2)
     assert not task.arrives(EXCLUDED)
 
-    found = [one for one in touches(task, EXCLUDED, MOVES, ROOM) if one is not None]
+    found = arriving(task)
 
     assert found
     for touch in found:
@@ -101,24 +107,45 @@ def test_a_goal_that_sticking_excludes_is_reached_from_another_contact():
 
 def test_a_finger_goes_neither_out_of_the_workspace_nor_farther_back_than_it_may():
     task = Task(START, STICKING, BOUNDS, 0.3)
-    assert not any(touches(task, EXCLUDED, MOVES, 0.001))
+    assert not arriving(task, room=0.001)
     # The other contacts that lead there are to the left.
-    assert not any(touches(replace(task, bounds=BOUNDS._replace(x_min=0.0)), EXCLUDED, MOVES, ROOM))
+    assert not arriving(replace(task, bounds=BOUNDS._replace(x_min=0.0)))
 
 
-def test_it_goes_back_first_and_then_across_and_knows_when_the_object_is_late():
+@pytest.mark.parametrize('told', [0, 3, 20])  # in which period the finger is told where to
+def test_it_goes_back_first_and_then_across_and_knows_when_the_object_is_late(told):
     way = detour(START, -0.012, MOVES)
-    regrasp, period = Regrasp(way, MOVES), 0.1
-    v, x, y, clear, time = (0.003, 0.0), 0.0, 0.0, [], 0.0
+    regrasp, period = Regrasp(MOVES), 0.1
+    v, x, y, clear, gaps = (0.003, 0.0), 0.0, 0.0, [], []
     while not regrasp.is_late:
+        if len(clear) == told:
+            regrasp.go(way)
         wanted = regrasp.velocity(period)
         change = ACCELERATION * period
         v = tuple(min(max(a, b - change), b + change) for a, b in zip(wanted, v, strict=True))
         regrasp.pass_time(period, v)
-        x, y, time = x + v[0] * period, y + v[1] * period, time + period
+        x, y = x + v[0] * period, y + v[1] * period
         clear.append(regrasp.is_clear)
+        # How far the edge, which is straight, is away from the finger.
+        gaps.append(-y - BELT * len(clear) * period + math.tan(START.theta) * x)
         if not regrasp.is_clear:
             assert abs(x) < 1e-3  # but for what it takes to stop the push
-    assert (x, y) == pytest.approx((way.across, -way.back), abs=1e-4)
+    assert x == pytest.approx(way.across, abs=1e-4)
     assert clear == sorted(clear)
-    assert way.belt < BELT * time < way.belt + 0.012
+    across = gaps[clear.index(True) : clear.index(True) + math.ceil(MOVES.time(abs(x)) / period)]
+    assert min(across) > 0.0
+    # It is late a while after the edge has come to where it waits.
+    assert -0.012 < gaps[-1] < 0.0
+
+
+def test_a_finger_that_is_not_told_where_to_keeps_away_from_the_edge():
+    regrasp, period, gap = Regrasp(MOVES), 0.1, []
+    for _ in range(40):
+        v = regrasp.velocity(period)
+        regrasp.pass_time(period, v)
+        gap.append((gap[-1] if gap else 0.0) - (v[1] + BELT) * period)
+    assert not regrasp.is_clear
+    assert gap[20:] == pytest.approx([gap[20]] * 20)
+    # It would be the least if speeding up took its time.
+    ramp = BELT * MOVES.speed / ACCELERATION
+    assert MOVES.clearance <= gap[20] <= MOVES.clearance + ramp
