@@ -138,20 +138,20 @@ def _draw_placed(done: 'PlacedRun', config: 'RigConfig', title: str, file: Path)
     """Draw ways and goal from above."""
     import numpy as np
 
-    from tactile_push.figures import PlacedWay, plot_placed  # which load matplotlib
+    from tactile_push.figures import plot_placed  # which loads matplotlib
     from tactile_push.mechanics.contact import TAU
+    from tactile_push.placed_way import PlacedWay
 
     run = done.run
     way = PlacedWay(
-        title,
-        [(x, y) for x, y in config.slider.outline.points(math.inf).tolist()],
-        float(config.body.path[0, TAU]),
         done.finger,
-        config.radius,
         np.stack([run.x, run.y, run.theta], axis=1),
-        done.goal,
+        edge=float(config.body.path[0, TAU]),
+        outline=[(x, y) for x, y in config.slider.outline.points(math.inf).tolist()],
+        radius=config.radius,
+        goal=done.goal,
     )
-    plot_placed([way], [file])
+    plot_placed({title: way}, [file])
 
 
 def _settle(options: argparse.Namespace, config: 'RigConfig') -> Simulated:

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 from tactile_push.bags import BagReader
-from tactile_push.control.placing.model import Goal
 from tactile_push.control.placing.stages import RELEASED
 from tactile_push.demo.running import (
     Experiment,
@@ -19,7 +18,7 @@ from tactile_push.demo.running import (
     page_port,
     run_experiment,
 )
-from tactile_push.figures import PlacedWay, plot_placed
+from tactile_push.figures import plot_placed
 from tactile_push.interface import (
     ACTIVE_SENSING,
     EXPERIMENT,
@@ -33,8 +32,7 @@ from tactile_push.interface import (
 )
 from tactile_push.paper import BELT_SPEED, BLOCK, CONTROL_PERIOD
 from tactile_push.parameters.recorded import recorded_parameters
-from tactile_push.report.columns import Table, read_tables, topics_of
-from tactile_push.report.data import Scene
+from tactile_push.report.columns import read_tables, topics_of
 from tactile_push.report.placings import Placing, placings, way_of
 from tactile_push.report.pushed import plant_in
 from tactile_push.report.scene import scene_of
@@ -107,26 +105,14 @@ def run_placing(
     truth, poses = tables.get(TRUE_STATE, {}), tables.get(TRUE_POSE, {})
     found = placings(tables.get(PLACE_STATE, {}), truth)
     scene = scene_of(parameters.get(plant_in('', parameters)), tables)
-    ways = [_way(number, one, truth, poses, scene) for number, one in enumerate(found, 1)]
-    if drawn := [way for way in ways if way is not None]:
-        plot_placed(drawn, [out / PICTURE])
+    ways = {
+        _title(number, one): way
+        for number, one in enumerate(found, 1)
+        if (way := way_of(one, truth, poses, scene)) is not None
+    }
+    if ways:
+        plot_placed(ways, [out / PICTURE])
     return PlacedResult(found, wall_seconds)
-
-
-def _way(number: int, one: Placing, truth: Table, poses: Table, scene: Scene) -> PlacedWay | None:
-    """Return what is drawn of a goal, None if there is nothing to draw."""
-    way = way_of(one, truth, poses)
-    if way is None:
-        return None
-    return PlacedWay(
-        title=_title(number, one),
-        outline=scene.outline,
-        edge=way.edge,
-        finger=way.finger,
-        radius=scene.radius,
-        moved=way.moved,
-        goal=Goal(one.x, one.theta),
-    )
 
 
 def _title(number: int, one: Placing) -> str:

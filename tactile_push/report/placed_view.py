@@ -5,20 +5,19 @@
 import html
 import math
 from collections.abc import Mapping, Sequence
-from itertools import chain
 
 import numpy as np
 import numpy.typing as npt
 
 from tactile_push.interface import PLACE_STATE, SENSING_STATE, TRUE_POSE, TRUE_STATE
+from tactile_push.placed_way import PlacedWay, from_above
 from tactile_push.report.columns import Column, Table
 from tactile_push.report.data import Scene
-from tactile_push.report.placings import Placing, Way, way_of
+from tactile_push.report.placings import Placing, way_of
 
 MILLIMETRES = 1e3
 MARGIN = 6.0  # around what is drawn [mm]
 MOST_POINTS = 400  # of a line
-BETWEEN = 0.05  # belt between two outlines on the way [m]
 BAR = 20.0  # length of the scale [mm]
 HEIGHT = 80.0  # of the drawing of d [mm]
 
@@ -32,44 +31,32 @@ def drawings(
     """
     drawn = []
     for number, one in enumerate(found, 1):
-        way = way_of(one, tables.get(TRUE_STATE, {}), tables.get(TRUE_POSE, {}))
-        parts = [] if way is None else [_from_above(one, way, scene)]
+        way = way_of(one, tables.get(TRUE_STATE, {}), tables.get(TRUE_POSE, {}), scene)
+        parts = [] if way is None else [_from_above(way)]
         parts += _believed(one, tables)
         if parts:
             drawn.append((f'Goal {number}: {one.stage}', ''.join(parts)))
     return drawn
 
 
-def _from_above(one: Placing, way: Way, scene: Scene) -> str:
+def _from_above(way: PlacedWay) -> str:
     """Draw ways and outlines, the belt's direction to the right, left of the finger above."""
-    start = np.array([0.0, way.finger[0, 1]])
-    finger, centre, theta = way.finger - start, way.moved[:, :2] - start, way.moved[:, 2]
-    outline = np.reshape(np.asarray(scene.outline, dtype=float), (-1, 2))
-
-    def placed(at: Column, angle: float) -> Column:
-        cos, sin = math.cos(angle - way.edge), math.sin(angle - way.edge)
-        return outline @ np.array([[cos, sin], [-sin, cos]]) + at
-
-    passed = np.searchsorted(finger[:, 1], np.arange(0.0, finger[-1, 1], BETWEEN))
-    goal = np.array([one.x, centre[-1, 1]])
-    shapes = {
-        'passed': [placed(centre[k], theta[k]) for k in passed],
-        'free': [placed(centre[-1], theta[-1])],
-        'wanted': [placed(goal, one.theta)],
-    }
-    turns = np.linspace(0.0, 2.0 * math.pi, 48)
-    tip = finger[-1] + scene.radius * np.stack([np.cos(turns), np.sin(turns)], axis=1)
-    outlines = chain.from_iterable(shapes.values())
-    everything = np.concatenate([finger, centre, tip, goal[np.newaxis], *outlines])
+    seen = from_above(way)
+    shapes = [('passed', outline) for _, outline in seen.passed]
+    shapes += [('free', seen.free), ('wanted', seen.wanted)]
+    outlines = (outline for _, outline in shapes)
+    everything = np.concatenate(
+        [seen.finger, seen.centre, seen.tip, seen.goal[np.newaxis], *outlines]
+    )
     low = MILLIMETRES * everything.min(axis=0)[::-1] - MARGIN
     high = MILLIMETRES * everything.max(axis=0)[::-1] + MARGIN
-    across = f'{MILLIMETRES * one.x:.2f}'
+    across = f'{MILLIMETRES * seen.goal[0]:.2f}'
     lines = [
         f'<path class="goal-line" d="M{low[0]:.2f} {across}H{high[0]:.2f}"/>',
-        *(_path(name, points, 'Z') for name, some in shapes.items() for points in some),
-        _path('finger-way', finger),
-        _path('centre-way', centre),
-        _path('tip', tip, 'Z'),
+        *(_path(name, points, 'Z') for name, points in shapes if len(points)),
+        _path('finger-way', seen.finger),
+        _path('centre-way', seen.centre),
+        _path('tip', seen.tip, 'Z'),
         _scale(high[0] - MARGIN, high[1] - MARGIN / 2.0),
     ]
     return _svg((*low, *(high - low)), lines, 'Finger and object from above')

@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 
@@ -24,7 +23,9 @@ from tactile_push.control.placing.stages import (
     STEERS,
     VERDICTS,
 )
-from tactile_push.report.columns import Column, Table
+from tactile_push.placed_way import PlacedWay
+from tactile_push.report.columns import Table
+from tactile_push.report.data import Scene
 
 # How a goal ends beside the law's own `ENDS`.
 PREEMPTED, OPEN = 'preempted', 'not ended'
@@ -64,15 +65,6 @@ class Placing:
         return self.reached[0] - self.x, self.reached[1] - self.theta
 
 
-class Way(NamedTuple):
-    """How finger and object moved on the belt, from the first contact until the object was free."""
-
-    finger: Column  # centre of the disk across and along the belt at each moment, (K, 2) [m]
-    # Of the object at each moment: x, y of the centre of mass [m] and theta [rad], (K, 3)
-    moved: Column
-    edge: float  # angle of the pushed edge in the object [rad]
-
-
 def placings(states: Table, truth: Table) -> list[Placing]:
     """Return what became of each goal that was taken, in their order.
 
@@ -92,10 +84,11 @@ def placings(states: Table, truth: Table) -> list[Placing]:
     return found
 
 
-def way_of(placing: Placing, truth: Table, poses: Table) -> Way | None:
+def way_of(placing: Placing, truth: Table, poses: Table, scene: Scene) -> PlacedWay | None:
     """Return the way to a goal, None if the simulator does not tell it.
 
-    `truth` and `poses` are the columns of `ground_truth/state` and `ground_truth/object_pose`.
+    `truth` and `poses` are the columns of `ground_truth/state` and `ground_truth/object_pose`,
+    `scene` is what was pushed by what.
     """
     if not all(name in truth for name in ('belt_travel', *TRUTH)) or not poses:
         return None
@@ -114,7 +107,14 @@ def way_of(placing: Placing, truth: Table, poses: Table) -> Way | None:
     )
     finger_y = travel + truth.get('along', np.zeros(len(truth['time'])))[at][kept]
     finger = np.stack([object_x - x, finger_y], axis=1)
-    return Way(finger, np.stack([object_x, finger_y + y, theta], axis=1), float(theta[0] - yaw[0]))
+    return PlacedWay(
+        finger,
+        np.stack([object_x, finger_y + y, theta], axis=1),
+        edge=float(theta[0] - yaw[0]),
+        outline=scene.outline,
+        radius=scene.radius,
+        goal=(placing.x, placing.theta),
+    )
 
 
 def goal_cells(found: Sequence[Placing]) -> list[tuple[str, ...]]:

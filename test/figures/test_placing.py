@@ -8,18 +8,18 @@ import matplotlib.figure
 import numpy as np
 import pytest
 
-from tactile_push.control.placing.model import Goal
-from tactile_push.figures import PlacedWay, plot_placed
+from tactile_push.figures import plot_placed
+from tactile_push.placed_way import PlacedWay
 
 SQUARE = [(-0.02, -0.02), (0.02, -0.02), (0.02, 0.02), (-0.02, 0.02)]
 BELT = np.linspace(0.0, 0.12, 25)
 
 
-def way(title='goal 1', edge=0.0):
+def way(edge=0.0):
     """Return a finger that goes straight ahead from 1 m on, and an object that turns by 90°."""
     finger = np.stack([np.full(25, -0.06), 1.0 + BELT], axis=1)
     moved = np.stack([np.full(25, -0.05), 1.03 + BELT, np.linspace(0.0, math.pi / 2.0, 25)], axis=1)
-    return PlacedWay(title, SQUARE, edge, finger, 0.0135, moved, Goal(-0.045, math.pi / 4.0))
+    return PlacedWay(finger, moved, edge, SQUARE, 0.0135, (-0.045, math.pi / 4.0))
 
 
 @pytest.fixture
@@ -37,7 +37,7 @@ def lines_by_label(axis):
 
 
 def test_the_ways_are_drawn_along_the_belt_from_where_the_finger_was(drawn):
-    plot_placed([way()], ['placed.png'])
+    plot_placed({'goal 1': way()}, ['placed.png'])
     (axis,) = drawn[0].axes
     lines = lines_by_label(axis)
     assert lines['finger'].get_xdata() == pytest.approx(1e3 * BELT)
@@ -49,7 +49,7 @@ def test_the_ways_are_drawn_along_the_belt_from_where_the_finger_was(drawn):
 
 
 def test_the_object_lies_where_it_was_let_go_and_the_goal_beside_it(drawn):
-    plot_placed([way()], ['placed.png'])
+    plot_placed({'goal 1': way()}, ['placed.png'])
     lines = lines_by_label(drawn[0].axes[0])
     # A square that has turned by 90° covers itself.
     corners = np.stack(lines['let go'].get_data(), axis=1)
@@ -68,7 +68,7 @@ def test_the_object_lies_where_it_was_let_go_and_the_goal_beside_it(drawn):
 
 
 def test_an_edge_that_is_not_the_objects_own_axis_is_turned_back(drawn):
-    plot_placed([way(edge=math.pi / 4.0)], ['placed.png'])
+    plot_placed({'goal 1': way(edge=math.pi / 4.0)}, ['placed.png'])
     lines = lines_by_label(drawn[0].axes[0])
     _, across = lines['goal'].get_data()
     assert (min(across), max(across)) == pytest.approx((-65.0, -25.0))
@@ -76,7 +76,7 @@ def test_an_edge_that_is_not_the_objects_own_axis_is_turned_back(drawn):
 
 def test_every_object_has_a_panel_and_every_file_is_written(tmp_path):
     files = [tmp_path / 'a.png', tmp_path / 'b.svg']
-    plot_placed([way('first goal'), way('second goal')], files)
+    plot_placed({'first goal': way(), 'second goal': way()}, files)
     assert files[0].read_bytes().startswith(b'\x89PNG\r\n\x1a\n')
     words = files[1].read_text()
     assert words.startswith('<?xml')

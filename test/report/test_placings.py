@@ -7,7 +7,10 @@ import pytest
 
 from support.placed_tables import BELT, GOALS, LAST, LIFTED, OFF, PLACED, V_Y, states, truth
 from tactile_push.control.placing import STAGES
+from tactile_push.report.data import Scene
 from tactile_push.report.placings import GOAL_HEADS, goal_cells, placings, way_of
+
+SCENE = Scene(0.0135, [(-0.02, -0.01), (0.02, -0.01), (0.0, 0.02)])
 
 
 @pytest.fixture(scope='module')
@@ -88,7 +91,7 @@ def test_goals_of_two_activations_are_told_apart():
 
 
 def test_the_way_is_that_on_the_belt_until_the_object_is_free(found):
-    way = way_of(found[0], *truth())
+    way = way_of(found[0], *truth(), SCENE)
     start = PLACED[0]
     assert way.finger[:, 0] == pytest.approx(np.full(len(way.finger), -0.06))
     assert way.finger[0, 1] == pytest.approx(V_Y * start)
@@ -98,16 +101,18 @@ def test_the_way_is_that_on_the_belt_until_the_object_is_free(found):
     assert way.moved[-1, 1] == pytest.approx(way.finger[-1, 1] + 0.037, abs=V_Y * 0.021)
     assert way.moved[:, 2] == pytest.approx(np.full(len(way.moved), PLACED[3] + OFF[1]))
     assert way.edge == pytest.approx(0.5)
+    assert (way.outline, way.radius) == (SCENE.outline, SCENE.radius)
+    assert way.goal == PLACED[2:4]
 
 
 def test_there_is_no_way_where_the_simulator_tells_none(found):
     state, pose = truth()
-    assert way_of(found[0], {}, {}) is None
-    assert way_of(found[0], state, {}) is None
+    assert way_of(found[0], {}, {}, SCENE) is None
+    assert way_of(found[0], state, {}, SCENE) is None
     older = {name: column for name, column in state.items() if name != 'lifted'}
-    assert way_of(found[0], older, pose) is None
+    assert way_of(found[0], older, pose, SCENE) is None
     up = state | {'lifted': np.ones(len(state['time']))}
-    assert way_of(found[0], up, pose) is None
+    assert way_of(found[0], up, pose, SCENE) is None
 
 
 def test_belt_is_unknown_where_nothing_is_left_to_tell():
@@ -135,8 +140,9 @@ def test_touching_anew_is_counted_and_named():
 def test_a_finger_that_goes_back_along_the_belt_is_where_the_simulator_has_it(found):
     state, pose = truth()
     along = -0.001 * state['time']
-    back = way_of(found[0], state | {'along': along}, pose | {'y': pose['y'] - along})
-    way = way_of(found[0], state, pose)
+    gone = state | {'along': along}, pose | {'y': pose['y'] - along}
+    back = way_of(found[0], *gone, SCENE)
+    way = way_of(found[0], state, pose, SCENE)
     assert back.finger[:, 1] - way.finger[:, 1] == pytest.approx(
         along[100 : 100 + len(along)][: len(way.finger)]
     )
