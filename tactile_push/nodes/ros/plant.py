@@ -10,17 +10,15 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Generic, TypeVar, cast
 
 from builtin_interfaces.msg import Time
-from geometry_msgs.msg import PoseStamped, TwistStamped, WrenchStamped
+from geometry_msgs.msg import PoseStamped, TwistStamped
 from rclpy.clock import Clock as NodeClock
 from rclpy.clock_type import ClockType
 from rclpy.node import Node
-from rclpy.publisher import Publisher
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool, Float64MultiArray
 from visualization_msgs.msg import MarkerArray
 
-from tactile_push.devices import Sentence, encode
 from tactile_push.interface import (
     CLOCK,
     COMMAND,
@@ -36,20 +34,19 @@ from tactile_push.interface import (
     TOPICS,
     TRUE_POSE,
     TRUE_STATE,
-    WRENCH,
     WRIST_JOINT,
 )
-from tactile_push.needs_opencv import missing_for_images
 from tactile_push.nodes.ros.compiling import compiling
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from tactile_push.nodes.ros.markers import rig_markers
 from tactile_push.nodes.ros.messages import publish
-from tactile_push.nodes.ros.parameters import ConfigurationError, declare, refusing
+from tactile_push.nodes.ros.parameters import ConfigurationError, declare
+from tactile_push.nodes.ros.plant_sensor import PlantSensor
 from tactile_push.nodes.ros.qos import FRESHEST, PUBLISHED
-from tactile_push.parameters.sim_plant import SimPlantParameters, faults, faults_on, mount
+from tactile_push.parameters.sim_plant import SimPlantParameters, faults, faults_on
 from tactile_push.pipeline import by_name
-from tactile_push.pipeline.messages import joint_state_fields, pose_fields, wrench_fields
-from tactile_push.simulation import ForceReadout, JointRig, Readout, Rig, serve
+from tactile_push.pipeline.messages import joint_state_fields, pose_fields
+from tactile_push.simulation import JointRig, Rig
 from tactile_push.simulation.commanded import (
     NOT_FINITE,
     OBEYED,
@@ -58,10 +55,8 @@ from tactile_push.simulation.commanded import (
 )
 from tactile_push.simulation.pace import Pace
 from tactile_push.simulation.truth import true_values
-from tactile_push.tactile import Reading
 
 if TYPE_CHECKING:
-    from tactile_push.nodes.ros.plant_camera import PlantCamera
     from tactile_push.simulation.mujoco_joint_rig import MujocoJointRig
     from tactile_push.simulation.mujoco_rig import MujocoRig
 
@@ -69,12 +64,8 @@ P = TypeVar('P', bound=SimPlantParameters)
 
 MARKER_RATE = 10.0  # [Hz]; fluent enough to the eye
 REPEAT_PERIOD = 0.01  # of time and reading while time stands still [s]; late by no more; picked
-# A reading of which nothing is heard for so many of those periods is lost, and sent again. Sooner,
-# the first one might only be late, and the second one would be taken for the next reading.
-LOST = 25
 LOOK_PERIOD = 1.0  # at who commands [s]; as often as diagnostics report it
 JOINTS = (*TOPICS[JOINT_STATES].field_names, WRIST_JOINT)
-WRENCH_FRAME = 'force_sensor'  # of what the simulated one measures
 LONGEST_STEP = 0.1  # a late timer moves the real-time rig no further at once [s]: a control period
 
 
@@ -98,25 +89,19 @@ class PlantNode(Node, Generic[P]):
                 f'got {p.real_time_factor}'
             )
         try:
-            make_rig, beginning, self._mount = self.rig_maker(p), faults(p), mount(p)
+            make_rig = self.rig_maker(p)
+            self._counts: Counter[str] = Counter({'readings sent': 0, 'commands': 0})
+            self._sensor = PlantSensor(self, p, self._counts)
         except ValueError as error:
             raise ConfigurationError(str(error)) from None
-        with refusing('device'):
-            self._device = serve(p.device)
-        self._counts: Counter[str] = Counter({'readings sent': 0, 'commands': 0})
         self._diagnostics = Diagnostics(self, self._health, lambda: self._counts)
         with compiling(self, self._diagnostics):  # which a refusal above need not wait for
             self._rig = make_rig()
-        self._readout = Readout(beginning.sensor, p.seed)
-        self._force_readout = ForceReadout(p.seed)
         self._period = 1.0 / p.sensor_rate
         self._pace = Pace(
             p.real_time_factor, 1.0 / p.control_rate, p.command_timeout, p.contact_lag
         )
         self._steps = 0
-        self._sequence = 0
-        self._awaited: Reading | None = None  # the last reading, if a contact has to follow
-        self._under_way = 0  # for how many periods of repeating it may still become a contact
         self._time = 0.0
         self._gone = 0.0  # of a step, where time had to stop on its way [s]
         self._last_wall = time.monotonic()
@@ -126,10 +111,6 @@ class PlantNode(Node, Generic[P]):
         self._object_pose = self.create_publisher(PoseStamped, TRUE_POSE, PUBLISHED)
         self._state = self.create_publisher(JointState, TRUE_STATE, PUBLISHED)
         self._markers = self.create_publisher(MarkerArray, MARKERS, 10)
-        self._wrench = (
-            self.create_publisher(WrenchStamped, WRENCH, PUBLISHED) if p.publish_wrench else None
-        )
-        self._camera = self._make_camera(p) if p.publish_image else None
         self._clock_publisher = None
         if p.publish_clock:
             self._clock_publisher = self.create_publisher(Clock, CLOCK, 10)
@@ -158,13 +139,13 @@ class PlantNode(Node, Generic[P]):
 
     def destroy_node(self) -> None:
         """Stop serving the device and end."""
-        self._device.close()
+        self._sensor.close()
         super().destroy_node()
 
     def _take_parameters(self, settings: P) -> None:
         self._settings = settings
         self._rig.faults = faults(settings)
-        self._readout.sensor = self._rig.faults.sensor
+        self._sensor.err(self._rig.faults.sensor)
 
     def _count_commanders(self) -> None:
         self._commanders = self.count_publishers(self._topic)
@@ -210,13 +191,13 @@ class PlantNode(Node, Generic[P]):
 
     def _on_contact(self, message: PoseStamped) -> None:
         self._pace.contact(_seconds(message))
-        self._under_way = 0  # the reading has become it, even if with an old stamp
+        self._sensor.heard()  # the reading has become it, even if with an old stamp
         self._on_timer()
 
     def _on_judged_reading(self, message: JointState) -> None:
         """Take note of a reading that was refused, as one whose stamp was that of the last."""
         if by_name(message.name, message.position).get('refusal', 0.0) != 0.0:
-            self._under_way = 0
+            self._sensor.heard()
 
     def _on_place_state(self, message: JointState) -> None:
         let_go_in = by_name(message.name, message.position).get('let_go_in', math.nan)
@@ -260,11 +241,8 @@ class PlantNode(Node, Generic[P]):
             # Time may stand still because a message was lost or a reading got an old stamp.
             self._last_clock = wall
             self._publish_clock()
-            if self._awaited is not None and self._pace.contact_overdue:
-                if self._under_way > 0:
-                    self._under_way -= 1
-                else:
-                    self._send(self._awaited)
+            if self._pace.contact_overdue:
+                self._sensor.repeat()
 
     def _now(self) -> float:
         """Return the time by which a command ages, which goes on while the rig is held up."""
@@ -278,7 +256,7 @@ class PlantNode(Node, Generic[P]):
 
     def _move(self, step: float) -> None:
         """Move belt, object and finger; a sensor of force begins with the object pressed to it."""
-        presses = self._wrench is not None and self._rig.is_loose
+        presses = self._sensor.feels_force and self._rig.is_loose
         self._commanded.move(step, self._now(), presses)
         self._time += step
 
@@ -300,42 +278,8 @@ class PlantNode(Node, Generic[P]):
 
     def _read(self) -> None:
         """Read the sensor and send what it says."""
-        self._awaited = None
-        if self._wrench is not None:
-            self._measure_wrench(self._wrench)
-        if self._camera is not None:
-            rig = self._rig
-            self._camera.publish(rig.reading(), rig.contact_force, self._stamp())
-        for sample in self._readout.read(self._rig.reading(), self._time):
-            if sample.reading is None:
-                self._sequence += 1  # as of a sentence that never arrives
-                self._counts['readings lost'] += 1
-                continue
-            self._send(sample.reading)
-            if sample.likely and (self._camera is None or self._camera.touches):
-                self._awaited = sample.reading
-                self._pace.reading(self._time)
-
-    def _make_camera(self, p: P) -> 'PlantCamera':
-        if needed := missing_for_images('cv2'):
-            raise ConfigurationError(f'parameter publish_image: {needed}')
-        from tactile_push.nodes.ros.plant_camera import PlantCamera
-
-        return PlantCamera(self, p)
-
-    def _measure_wrench(self, publisher: Publisher) -> None:
-        """Publish what the force/torque sensor measures."""
-        rig, stamp = self._rig, self._stamp()
-        truth = self._mount.wrench(rig.contact_force, rig.theta, rig.psi)
-        wrench = self._force_readout.read(rig.faults.force_sensor, truth, self._time)
-        at = (stamp.sec, stamp.nanosec)
-        publish(publisher, wrench_fields(at, WRENCH_FRAME, wrench.tolist()))
-
-    def _send(self, reading: Reading) -> None:
-        self._device.send(encode(Sentence(self._sequence, reading)))
-        self._under_way = LOST
-        self._sequence += 1
-        self._counts['readings sent'] += 1
+        if self._sensor.read(self._rig, self._time, self._stamp()):
+            self._pace.reading(self._time)
 
     def _stamp(self) -> Time:
         if self._clock_publisher is None:

@@ -5,19 +5,15 @@
 import math
 
 import pytest
-from geometry_msgs.msg import PoseStamped, TwistStamped, WrenchStamped
+from geometry_msgs.msg import PoseStamped, TwistStamped
 from rclpy.parameter import Parameter as RosParameter
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool, Float64MultiArray
 
-from tactile_push.devices.device import Device
-from tactile_push.devices.stream import SentenceStream
 from tactile_push.interface import (
     CLOCK,
     COMMAND,
-    CONTACT,
-    GEOMETRY_STATE,
     JOINT_STATES,
     PLACE_RELEASE,
     PLACE_STATE,
@@ -25,7 +21,6 @@ from tactile_push.interface import (
     TOPICS,
     TRUE_POSE,
     TRUE_STATE,
-    WRENCH,
 )
 from tactile_push.nodes.ros.diagnostics import ERROR, OK, WARN
 from tactile_push.nodes.ros.plant import LONGEST_STEP
@@ -58,17 +53,6 @@ def test_before_the_first_command_the_belt_stands(bench, plant):
     assert (state['theta'], state['d']) == pytest.approx((0.25, 0.004))
     assert state['finger_x'] == state['belt_travel'] == state['v_x'] == 0.0
     assert bench.health == (OK, 'belt stands, waiting for the first command')
-
-
-def test_force_torque_sensor_feels_the_finger_push(bench, plant):
-    plant(publish_wrench=True, theta_initial=0.0, d_initial=0.0, f_max=2.0)
-    bench.hear(WrenchStamped, WRENCH)
-    bench.until(lambda: len(bench.heard[WRENCH]) > 3)
-    first, *_, last = bench.heard[WRENCH]
-    # The finger points ahead, so the object pushes it back along its pole.
-    assert (last.wrench.force.x, last.wrench.force.z) == pytest.approx((0.0, -2.0), abs=1e-9)
-    assert last.header.frame_id == 'force_sensor'
-    assert stamp_of(first) < stamp_of(last)
 
 
 def test_a_command_moves_the_finger_and_starts_the_belt(bench, plant):
@@ -223,36 +207,6 @@ def test_published_time_stops_where_an_object_is_let_go(bench, plant):
     assert pose.pose.position.y == pytest.approx(0.0135 + 0.02375 - 0.005 * gone, abs=1e-9)
 
 
-def test_a_reading_is_sent_again_if_it_was_refused_and_not_while_it_may_be_late(
-    bench, plant, monkeypatch
-):
-    monkeypatch.setattr('tactile_push.nodes.ros.plant.LOST', math.inf)
-    node = plant(publish_clock=True)
-    bench.hear(Clock, CLOCK)
-    judged = bench.publisher(JointState, GEOMETRY_STATE)
-    contacts, clocks = bench.publisher(PoseStamped, CONTACT), bench.heard[CLOCK]
-    bench.until(lambda: clocks)
-    contact = PoseStamped()
-    contact.header.stamp = clocks[-1].clock
-    contacts.publish(contact)
-    bench.until(lambda: node._pace.contact_overdue)
-
-    def wait():
-        """Wait until the time that stands was published some times more."""
-        seen = len(clocks)
-        bench.until(lambda: len(clocks) > seen + 5)
-        return node._sequence
-
-    sent = wait()
-    assert wait() == sent
-    judged.publish(JointState(name=['refusal'], position=[1.0]))
-    bench.until(lambda: node._sequence == sent + 1)
-    judged.publish(JointState(name=['refusal'], position=[0.0]))  # its contact is on its way
-    assert wait() == sent + 1
-    contacts.publish(contact)  # stamped before the reading: the driver was late to hear the clock
-    bench.until(lambda: node._sequence == sent + 2)
-
-
 def test_published_time_grows_by_the_sensors_period(bench, plant):
     plant(publish_clock=True)
     bench.hear(Clock, CLOCK)
@@ -260,16 +214,6 @@ def test_published_time_grows_by_the_sensors_period(bench, plant):
     times = [message.clock.sec * 10**9 + message.clock.nanosec for message in bench.heard[CLOCK]]
     assert times == sorted(times)
     assert all(time % 10_000_000 == 0 for time in times)
-
-
-def test_readings_come_out_of_the_device(bench, plant, tmp_path):
-    plant(theta_initial=0.2)
-    device, stream, readings = Device(str(tmp_path / 'sensor'), 115200), SentenceStream(), []
-    bench.until(lambda: len(readings) > 3, lambda: readings.extend(stream.feed(device.read())))
-    device.close()
-    # A finger that points straight ahead: the edge turned by theta is felt so far from the pole.
-    assert {round(math.pi / 2.0 - reading.elevation, 4) for reading in readings} == {0.2}
-    assert stream.lost == 0
 
 
 def test_a_fault_takes_effect_while_it_runs_and_is_a_warning(bench, plant):
