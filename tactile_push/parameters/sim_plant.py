@@ -99,6 +99,9 @@ class SimPlantParameters(NodeParameters):
         'time between a command and its first effect', 0.0, 10.0)
     servo_velocity_quantum: float = parameter(0.0, 'm/s',
         'the velocity of the finger is a whole multiple of this', 0.0, 1.0)
+    lift_delay: float = parameter(0.0, 's',
+        'time from place/release until the finger that it lifts has let go of the object',
+        0.0, 5.0)
     workspace_min: float = parameter(-math.inf, 'm', 'least x of the finger in finger_base')
     workspace_max: float = parameter(math.inf, 'm', 'greatest x of the finger in finger_base')
     belt_ripple: float = parameter(0.0, '',
@@ -226,7 +229,7 @@ def faults(p: SimPlantParameters) -> 'Faults':
     except ValueError as error:
         raise ValueError(f'parameter wrench_{error}') from None
     return Faults(
-        Servo(p.servo_time_constant, p.servo_delay, p.servo_velocity_quantum),
+        Servo(p.servo_time_constant, p.servo_delay, p.servo_velocity_quantum, p.lift_delay),
         workspace,
         Belt(p.belt_ripple, p.belt_ripple_frequency, p.belt_stopped),
         UnevenFriction(p.mu_c_ripple, p.mu_c_ripple_length),

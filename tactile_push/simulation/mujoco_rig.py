@@ -94,6 +94,7 @@ class MujocoRig:
         self.time = 0.0  #: how long it has been in motion [s]
         self.v_y = 0.0  #: the belt's speed at the end of the last step [m/s]
         self.lifted = False  #: whether the finger is lifted off the object
+        self.free_in = math.inf  #: after how long it is, if its lift has begun [s]
         self.touching = True  #: whether finger and object touch
         #: angle of the tangent plane at the last contact [rad], which turns with a released object
         self.theta = config.theta
@@ -126,10 +127,23 @@ class MujocoRig:
         self.time = 0.0
         self._look()
 
-    def lift(self) -> None:
-        """Lift the finger off the object, which the belt carries on as it lies."""
+    def lift(self, after: float = 0.0) -> None:
+        """Lift the finger off the object, which the belt carries on as it lies.
+
+        Parameters
+        ----------
+        after : float, optional
+            When it is told to [s]. The object is free by the servo's lift delay later.
+        """
+        self.free_in = after + self.faults.servo.lift_delay
+        if self.free_in == 0.0:
+            self._let_go()
+
+    def _let_go(self) -> None:
+        self.free_in = math.inf
         if self.lifted:
             return
+        self._look()  # at the angle of the edge now
         self.lifted = True
         physics = self.physics
         height = physics.object_height - physics.push_height + self.config.radius + OVERHEAD
@@ -141,8 +155,9 @@ class MujocoRig:
     def put_down(self) -> None:
         """Put the finger down at the next object, which it touches as it did the first one.
 
-        Nothing happens to a finger that is down.
+        A finger that is down stays there.
         """
+        self.free_in = math.inf
         if not self.lifted:
             return
         self.lifted = False
@@ -339,6 +354,9 @@ class MujocoRig:
             data.qvel[BASE_RATE] = self.v_y
             mujoco.mj_step(self._model, data)
             self.time += step
+            self.free_in -= step
+            if self.free_in <= 0.0:
+                self._let_go()
 
     def _within_limits(self, v_x: float, v_along: float, step: float) -> tuple[float, float]:
         """Return the velocities, or 0 where the finger can go no further."""

@@ -87,12 +87,16 @@ def place(
     learned, end = 0.0, ''
     for tick in believing(rig, push, law, sensing, seed):
         watch(rig, tick)
+        lifting = math.isfinite(rig.free_in)
         silent = tick.silence > push.limits.contact_timeout and not tick.apart
-        if tick.state not in (PUSHING, WAITING) or silent:
+        if not lifting and (tick.state not in (PUSHING, WAITING) or silent):
             end = tick.stop_reason or tick.state
             break
-        if not math.isnan(law.let_go_in):
-            rig.step(tick.v_x or 0.0, law.let_go_in)
+        if math.isfinite(law.tell_in):
+            rig.lift(law.tell_in)
+            law.told()
+        if rig.free_in <= period:
+            rig.step(tick.v_x or 0.0, rig.free_in)
             watch(rig, tick)
             break
         if law.stage == MISSED:

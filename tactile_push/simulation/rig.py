@@ -179,6 +179,7 @@ class Rig:
         self.belt_travel = 0.0  #: how far the belt has moved [m]
         self.psi = math.pi / 2.0  #: angle of the finger tip's pole in `finger_base` [rad]
         self.lifted = False  #: whether the finger is lifted off the object
+        self.free_in = math.inf  #: after how long it is, if its lift has begun [s]
         self.touching = True  #: whether finger and object touch
         self.sigma = config.sigma  #: position of the disk along its path around the object [m]
         self.mode = FREE  #: how the contact moved at the end of the last step, an index of `MODES`
@@ -196,15 +197,28 @@ class Rig:
         x, y = reach(theta, d, l, self.config.radius)
         return Pose(self.finger_x - x, self.finger_y - y, theta - tangent_angle(self.sigma, path))
 
-    def lift(self) -> None:
-        """Lift the finger off the object, which the belt carries on as it lies."""
-        self.lifted, self.touching, self.mode = True, False, FREE
+    def lift(self, after: float = 0.0) -> None:
+        """Lift the finger off the object, which the belt carries on as it lies.
+
+        Parameters
+        ----------
+        after : float, optional
+            When it is told to [s]. The object is free by the servo's lift delay later.
+        """
+        self.free_in = after + self.faults.servo.lift_delay
+        if self.free_in == 0.0:
+            self._let_go()
+
+    def _let_go(self) -> None:
+        self.free_in = math.inf
+        self.lifted, self.touching = True, False
 
     def put_down(self) -> None:
         """Put the finger down at the next object, which it touches as it did the first one.
 
-        Nothing happens to a finger that is down.
+        A finger that is down stays there.
         """
+        self.free_in = math.inf
         if not self.lifted:
             return
         self.lifted, self.touching = False, True
@@ -405,16 +419,20 @@ class Rig:
             belt_speed = self.faults.belt.mean_speed(self.config.belt_speed, self.time, duration)
         v_y = belt_speed + v_along
         self.time += duration
-        if v_x == v_y == 0.0:
+        if self.lifted or v_x == v_y == 0.0:
             self.mode = FREE
-        else:
+        if not v_x == v_y == 0.0:
             self.phi = math.atan2(v_y, v_x)
             if not self.lifted:
-                self._push(v_x, v_y, (psi - self.psi) / duration, duration)
+                turning = (psi - self.psi) / duration
+                self._push(v_x, v_y, turning, min(duration, self.free_in))
         self.belt_travel += belt_speed * duration
         self.finger_x += v_x * duration
         self.along += v_along * duration
         self.psi = psi
+        self.free_in -= duration
+        if self.free_in <= 0.0:
+            self._let_go()
 
     def _push(self, v_x: float, v_y: float, turning: float, duration: float) -> None:
         """Let the finger, which moves on the belt and turns evenly, move what is in its way."""

@@ -19,10 +19,10 @@ FOLLOWED = 1e-9  # a velocity so near to its command has reached it [m/s]
 
 @dataclass(frozen=True)
 class Servo:
-    """How the finger follows its velocity command; by default perfectly.
+    """How the finger follows its commands; by default perfectly.
 
-    What arrives after the delay is rounded to whole quanta and then followed by a lag of first
-    order.
+    A velocity that arrives after the delay is rounded to whole quanta and then followed by a lag of
+    first order.
 
     Raises
     ------
@@ -33,9 +33,10 @@ class Servo:
     time_constant: float = 0.0  #: of the lag [s], after which 63 % of a step of the command is made
     delay: float = 0.0  #: between a command and its first effect [s]
     velocity_quantum: float = 0.0  #: velocities are whole multiples of it [m/s]; 0 for any
+    lift_delay: float = 0.0  #: from the word to lift until the object is free [s]
 
     def __post_init__(self) -> None:
-        for name in ('time_constant', 'delay', 'velocity_quantum'):
+        for name in ('time_constant', 'delay', 'velocity_quantum', 'lift_delay'):
             value = getattr(self, name)
             if not (math.isfinite(value) and value >= 0.0):
                 raise ValueError(f'{name}: expected a finite number of 0 or more, got {value}')

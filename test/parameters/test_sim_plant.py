@@ -18,6 +18,7 @@ VALUES = {
     'servo_time_constant': (0.1, lambda f: f.servo.time_constant),
     'servo_delay': (0.2, lambda f: f.servo.delay),
     'servo_velocity_quantum': (0.001, lambda f: f.servo.velocity_quantum),
+    'lift_delay': (0.1, lambda f: f.servo.lift_delay),
     'workspace_min': (-0.08, lambda f: f.workspace.lower),
     'workspace_max': (0.02, lambda f: f.workspace.upper),
     'belt_ripple': (0.3, lambda f: f.belt.ripple),

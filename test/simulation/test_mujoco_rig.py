@@ -200,6 +200,21 @@ def test_a_lifted_finger_leaves_the_object_as_it_lies():
     assert rig.object_in_finger_disk.y == pytest.approx(ahead - 0.003, abs=1e-4)
 
 
+def test_a_slow_lift_pushes_the_object_on_until_it_is_free():
+    slow = MujocoRig(config(), PHYSICS, Faults(servo=Servo(lift_delay=0.15)))
+    quick = MujocoRig(config(), PHYSICS)
+    for rig in (slow, quick):
+        pushed(rig, 5)
+    slow.lift()
+    slow.step(0.004, 0.1)
+    assert (slow.lifted, slow.touching) == (False, True)
+    slow.step(0.004, 0.1)
+    assert (slow.lifted, slow.touching) == (True, False)
+    quick.step(0.004, 0.15)
+    assert tuple(slow.object_pose)[:2] == pytest.approx(tuple(quick.object_pose)[:2], abs=2e-5)
+    assert slow.theta == pytest.approx(quick.theta, abs=1e-3)
+
+
 def test_the_next_object_comes_as_the_first_one_did():
     rig = MujocoRig(config(), PHYSICS)
     first = rig.object_in_finger_disk

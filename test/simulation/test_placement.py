@@ -45,6 +45,30 @@ def test_an_object_is_placed_if_the_truth_is_told(tip_turns):
     assert found.belt == law.used < 0.1
 
 
+def placed_by_a_slow_lift(delay, lift_delay):
+    """Place an object by a finger whose lift takes a time, of which the law is told another one."""
+    block = paper_block(theta=0.2, d=0.003)
+    rig = Rig(block, Faults(servo=Servo(time_constant=LAG, lift_delay=lift_delay)))
+    x = rig.object_in_finger_disk.x + rig.finger_pose.x
+    law = PlaceLaw(Goal(x - 0.015, 0.0), 0.3, block.belt_speed, 0.1, lag=LAG, delay=delay)
+    return place(rig, law), rig.object_pose
+
+
+def test_a_lift_that_takes_time_is_begun_so_much_earlier_if_the_law_is_told():
+    (at_once, here), (told, _), (untold, there) = (
+        placed_by_a_slow_lift(*one) for one in ((0.0, 0.0), (0.1, 0.1), (0.0, 0.1))
+    )
+    for found in (at_once, told, untold):
+        assert (found.stage, found.end) == (RELEASED, '')
+    for found in (at_once, told):
+        assert abs(found.x_error) < 2e-4
+        assert abs(found.theta_error) < math.radians(0.2)
+    # Nobody told: the object is carried on for the belt of the lift, and passes the goal.
+    assert there.y - here.y == pytest.approx(0.1 * 0.005, abs=1e-4)
+    passed = untold.x_error - at_once.x_error, untold.theta_error - at_once.theta_error
+    assert abs(passed[0]) > 1e-4 or abs(passed[1]) > math.radians(0.2)
+
+
 @pytest.mark.slow
 def test_an_object_is_placed_by_touch_alone():
     slider = Slider.on(BLOCK, Support.corners(BLOCK), exact=True)

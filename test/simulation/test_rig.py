@@ -997,6 +997,37 @@ def test_a_lifted_finger_leaves_the_object_as_it_lies():
     assert rig.object_pose == placed
 
 
+def test_a_slow_lift_pushes_the_object_on_until_it_is_free():
+    config = paper_block(0.2, 0.003)
+    slow, quick = Rig(config, Faults(servo=Servo(lift_delay=0.15))), Rig(config)
+    for rig in (slow, quick):
+        rig.step(0.002, 1.0)
+    slow.lift()
+    assert not slow.lifted
+    slow.step(0.004, 0.1)
+    assert (slow.lifted, slow.touching) == (False, True)
+    slow.step(0.004, 0.1)
+    assert (slow.lifted, slow.touching) == (True, False)
+    quick.step(0.004, 0.15)
+    assert tuple(slow.object_pose) == pytest.approx(tuple(quick.object_pose), abs=1e-9)
+    assert slow.finger_x == pytest.approx(0.0028)
+    slow.step(0.004, 1.0)
+    assert MODES[slow.mode] == 'free'
+    assert tuple(slow.object_pose) == pytest.approx(tuple(quick.object_pose), abs=1e-9)
+
+
+def test_a_finger_that_is_put_down_before_it_has_let_go_pushes_on():
+    rig = Rig(paper_block(0.2, 0.003), Faults(servo=Servo(lift_delay=0.15)))
+    rig.lift()
+    rig.step(0.002, 0.1)
+    rig.put_down()
+    rig.step(0.002, 1.0)
+    assert (rig.lifted, rig.touching) == (False, True)
+    rig.lift()
+    rig.step(0.0, 0.15)
+    assert rig.lifted
+
+
 def test_the_next_object_comes_as_the_first_one_did():
     first = Rig(paper_block(0.2, 0.003, mu_c=0.4))
     second = Rig(first.config)

@@ -156,7 +156,11 @@ def test_finger_beyond_its_workspace_may_only_come_back():
 
 @pytest.mark.parametrize(
     ('name', 'value'),
-    list(itertools.product(['time_constant', 'delay', 'velocity_quantum'], [-0.1, math.inf])),
+    list(
+        itertools.product(
+            ['time_constant', 'delay', 'velocity_quantum', 'lift_delay'], [-0.1, math.inf]
+        )
+    ),
 )
 def test_number_out_of_its_range_is_refused_by_name_and_value(name, value):
     with pytest.raises(ValueError, match=f'{name}: expected a finite number of 0 or more, got'):
