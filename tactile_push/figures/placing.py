@@ -28,10 +28,11 @@ def plot_placed(ways: Mapping[str, PlacedWay], files: Sequence[Path]) -> None:
         Where to write; the ending chooses the format.
     """
     figure = new_figure(8.0, 2.6 * len(ways))
-    panels = figure.subplots(len(ways), 1, sharex=True, squeeze=False)[:, 0]
+    panels = figure.subplots(len(ways), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     for axis, (title, way) in zip(panels, ways.items(), strict=True):
         _draw(axis, way)
         axis.set_title(title, fontsize='medium', loc='left')
+    panels[0].invert_yaxis()  # and with it all of them
     panels[-1].set_xlabel('along the belt [mm]')
     figure.legend(*panels[0].get_legend_handles_labels(), loc='outside lower center', ncols=4)
     for file in files:
@@ -52,7 +53,6 @@ def _draw(axis: matplotlib.axes.Axes, way: PlacedWay) -> None:
     _outline(axis, seen.goal, seen.wanted, label='goal', **dashed)
     axis.set_ylabel('across [mm]')
     axis.set_aspect('equal')
-    axis.invert_yaxis()
 
 
 def _outline(axis: matplotlib.axes.Axes, centre: Points, outline: Points, **style: Any) -> None:

@@ -48,6 +48,19 @@ def test_the_ways_are_drawn_along_the_belt_from_where_the_finger_was(drawn):
     assert axis.get_ylim()[0] > axis.get_ylim()[1]
 
 
+def test_the_panels_have_one_scale_and_lie_below_each_other(drawn):
+    far = way()._replace(moved=way().moved + [0.04, 0.02, 0.0])
+    plot_placed({'near': way(), 'far': far}, ['placed.png'])
+    drawn[0].draw_without_rendering()
+    first, second = drawn[0].axes
+    for axis in (first, second):
+        assert axis.get_ylim()[0] > axis.get_ylim()[1]
+    assert first.get_xlim() == second.get_xlim()
+    assert first.get_ylim() == second.get_ylim()
+    boxes = [axis.get_position() for axis in (first, second)]
+    assert (boxes[0].x0, boxes[0].x1) == pytest.approx((boxes[1].x0, boxes[1].x1))
+
+
 def test_the_object_lies_where_it_was_let_go_and_the_goal_beside_it(drawn):
     plot_placed({'goal 1': way()}, ['placed.png'])
     lines = lines_by_label(drawn[0].axes[0])
