@@ -32,6 +32,12 @@ def test_a_goal_beside_the_start_is_reached_with_reserve(command):
     assert 'reached' not in out  # nobody asked for the others
 
 
+def test_a_goal_that_only_a_look_with_reserve_finds_is_reached_with_reserve(command):
+    # The search for the same plan without reserve picks others, which do not arrive.
+    _, out, _ = command('reach', *goal(50, -15), '--json', '-')
+    assert json.loads(out)['goal']['verdict'] == 'with reserve'
+
+
 def test_a_goal_farther_than_the_belt_allows_has_a_nearest_one_that_can_be_reached(command):
     # The finger goes aside by 1.54 mm for a millimetre of belt at the most.
     arguments = '--belt-mm', 20

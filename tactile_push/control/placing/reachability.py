@@ -125,17 +125,27 @@ def judging(task: Task, goal: Goal) -> Generator[None, None, Reach]:
         plan = yield from task.planning(goal, look)
         yield
         if _arrives(plan):
-            spared = None
-            if look.taken == LIKELY:
-                spared = yield from with_reserve(task).planning(goal, look)
-                yield
-            if _arrives(spared):
-                return Reach(WITH_RESERVE, '', spared)
-            return Reach(AT_THE_LIMITS, '', plan)
+            spared = yield from _sparing(task, goal)
+            return spared or Reach(AT_THE_LIMITS, '', plan)
         if look == PLAIN:
             first = plan
     reason = yield from _reason(task, goal)
     return Reach(OUT_OF_REACH, reason, first)
+
+
+def _sparing(task: Task, goal: Goal) -> Generator[None, None, Reach | None]:
+    """Return how a goal is reached with reserve, None if it is not.
+
+    Every look is tried: that one has found a plan without reserve says nothing about the others.
+    """
+    spared = with_reserve(task)
+    for look in _looks(task):
+        if look.taken == LIKELY:
+            plan = yield from spared.planning(goal, look)
+            yield
+            if _arrives(plan):
+                return Reach(WITH_RESERVE, '', plan)
+    return None
 
 
 def _looks(task: Task) -> list[Look]:
