@@ -44,16 +44,23 @@ def test_goals_and_errors_are_told_and_drawn(asked, tmp_path):
     assert (out / 'placed' / 'metadata.yaml').exists()
 
 
-@pytest.mark.parametrize('sensor', ['sentence', 'wrench'])
-def test_nodes_take_what_they_are_asked(asked, tmp_path, sensor):
-    placing.run_placing(tmp_path, pytest.fail, sensor=sensor)
+@pytest.mark.parametrize(
+    ('plant', 'sensor'),
+    [('sim_plant', 'sentence'), ('mujoco_plant', 'wrench'), ('mujoco_plant', 'camera')],
+)
+def test_nodes_take_what_they_are_asked(asked, tmp_path, plant, sensor):
+    placing.run_placing(tmp_path, pytest.fail, plant, sensor)
     (what,) = asked
+    assert (what.plant, what.sensor) == (plant, sensor)
+    assert plant in what.more
     for node, values in what.more.items():
         kind = PARAMETERS[node]
         assert set(values) <= {known.name for known in kind.declared()}, node
         kind.of(values)
     assert goals(ExperimentParameters.of(what.more['experiment'])) == list(placing.GOALS)
-    assert ('noise' in what.more['active_sensing']) == (sensor == 'sentence')
+    sensing = what.more['active_sensing']
+    assert ('noise' in sensing) == (sensor == 'sentence')  # other sensors have their own
+    assert ('tilt_max' in sensing) == (plant == 'sim_plant')  # the other pushes above the belt
 
 
 def test_an_object_for_every_goal_has_to_be_let_go(asked, tmp_path):
