@@ -3,21 +3,16 @@
 """The parameters of `push_controller`, and the control that they make."""
 
 import math
-import typing
 from dataclasses import dataclass
-from typing import Any
 
 from tactile_push import paper
 from tactile_push.control import Limits, PushControl, PushLaw, Steadying, Steering
 from tactile_push.control.limits import RETREAT
-from tactile_push.interface import LAWS, PLACE, PUSH, SETTLE, STEER
+from tactile_push.interface import LAWS, PUSH, STEER
 from tactile_push.parameters import shared
 from tactile_push.parameters.parameter import NodeParameters, parameter
 from tactile_push.pipeline import Control, Seconds
 from tactile_push.tactile import PlanarFinger
-
-if typing.TYPE_CHECKING:
-    from tactile_push.pipeline.believing import Believing
 
 LIMITS = Limits()
 STEEPEST = 1.5  # largest angle that the edge may be asked to have [rad]; pi/2 faces away
@@ -138,71 +133,14 @@ def choose_law(steps: Control, p: PushControllerParameters, seconds: Seconds) ->
     steps, p, seconds : Control, PushControllerParameters, callable
         The control's steps, the parameters, and what returns the time [s] of a stamp.
     """
-    steps.placing = None
-    steps.push.law = make_law(p)
-    steps.push.steadying = make_steadying(steps.push.law, p)
-    if p.law == PLACE:
-        steps.placing = _make_placing(steps.push, p, seconds)
-    elif p.law == STEER:
-        steps.placing = _make_carrying(steps.push, p, seconds)
-    elif p.law == SETTLE:
-        steps.placing = _make_settling(steps.push, p, seconds)
+    push = steps.push
+    if p.law == PUSH:
+        steps.placing, push.law = None, make_law(p)
+    else:
+        from tactile_push.parameters.goal_laws import give_law  # which loads the compiler
 
-
-def _make_placing(push: PushControl, p: PushControllerParameters, seconds: Seconds) -> 'Believing':
-    """Let a control place."""
-    # Which load the compiler.
-    from tactile_push.control.placing.compiling import compile_placing
-    from tactile_push.control.placing.law import NOWHERE, PlaceLaw
-    from tactile_push.control.placing.regrasp import Moves
-    from tactile_push.pipeline.placing import Placing
-
-    law = PlaceLaw(
-        *(NOWHERE, p.belt_length, p.belt_speed, 1.0 / p.control_rate),
-        delay=p.release_delay,
-        moves=Moves(p.max_speed, p.max_acceleration, p.belt_speed) if p.axes == 2 else None,
-        room=p.retreat_max,
-        **_bounds(p),
-    )
-    compile_placing()
-    return Placing(push, law, seconds)
-
-
-def _make_carrying(push: PushControl, p: PushControllerParameters, seconds: Seconds) -> 'Believing':
-    """Let a control steer."""
-    from tactile_push.control.placing.compiling import compile_steering
-    from tactile_push.control.placing.steer_law import SteerLaw
-    from tactile_push.pipeline.steering import Carrying
-
-    law = SteerLaw(p.theta_desired, p.belt_speed, 1.0 / p.control_rate, **_bounds(p))
-    law.tune(p.kp, p.kd, p.theta_desired)
-    push.steadying = make_steadying(law, p)
-    compile_steering()
-    return Carrying(push, law, seconds)
-
-
-def _make_settling(push: PushControl, p: PushControllerParameters, seconds: Seconds) -> 'Believing':
-    """Let a control settle."""
-    from tactile_push.control.placing.compiling import compile_settling
-    from tactile_push.control.placing.settle_law import SettleLaw
-    from tactile_push.pipeline.settling import Settling
-
-    law = SettleLaw(p.theta_desired, p.belt_speed, 1.0 / p.control_rate, **_bounds(p))
-    law.tune(p.kp, p.kd, p.theta_desired)
-    compile_settling()
-    return Settling(push, law, seconds)
-
-
-def _bounds(p: PushControllerParameters) -> dict[str, Any]:
-    """Return what bounds the commands of a law that believes."""
-    slowest = math.atan2(p.belt_speed, p.max_speed)  # phi at the greatest speed
-    return {
-        'lag': p.finger_lag,
-        'workspace': (p.workspace_min, p.workspace_max),
-        'rate': p.max_acceleration,
-        'phi_min': max(p.phi_min, slowest),
-        'phi_max': min(p.phi_max, math.pi - slowest),
-    }
+        steps.placing = give_law(push, p, seconds)
+    push.steadying = make_steadying(push.law, p)
 
 
 def make_finger(p: PushControllerParameters) -> PlanarFinger:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from tactile_push.control import Steadying, Steering
-from tactile_push.interface import PLACE, PUSH, SETTLE, STEER
+from tactile_push.interface import PLACE, PUSH, STEER
 from tactile_push.parameters import PushControllerParameters
 from tactile_push.parameters.push_controller import (
     check_fit,
@@ -18,8 +18,6 @@ from tactile_push.parameters.push_controller import (
     take_values,
 )
 from tactile_push.pipeline import Control
-from tactile_push.pipeline.settling import Settling
-from tactile_push.pipeline.steering import Carrying
 
 # Each number that may change while the node runs, and where it has to arrive.
 VALUES = {
@@ -102,30 +100,19 @@ def test_an_empty_workspace_is_refused():
         make_control(PushControllerParameters(workspace_min=0.1, workspace_max=0.1))
 
 
-def steps_of(p):
-    """Return the steps of a control with the law that the parameters name."""
+@pytest.mark.parametrize(('law', 'trims'), [(PLACE, Steadying), (STEER, Steering)])
+def test_the_law_is_chosen_anew(law, trims):
+    p = PushControllerParameters(law=law, edge_distance=0.03, finger_radius=0.01)
     steps = Control(make_control(p), make_finger(p), p.joint_names, lambda sec, nanosec: sec)
     choose_law(steps, p, lambda sec, nanosec: sec)
-    return steps
-
-
-def test_the_law_is_chosen_anew():
-    steps = steps_of(PushControllerParameters(law=PLACE))
+    push = steps.push
     assert steps.placing is not None
+    assert isinstance(push.steadying, trims)
+    assert (push.steadying.l, push.steadying.r) == (0.03, 0.01)
     choose_law(steps, PushControllerParameters(law=PUSH, kp=0.3), lambda sec, nanosec: sec)
     assert steps.placing is None
-    assert steps.push.law.kp == 0.3
-
-
-def test_the_law_that_places_gets_its_numbers():
-    steps = steps_of(
-        PushControllerParameters(law=PLACE, belt_length=0.2, belt_speed=0.02, max_speed=0.01)
-    )
-    law = steps.push.law
-    assert law.belt == 0.2
-    # The finger gets as far aside as half the belt's way at the most.
-    assert 1.0 / math.tan(law.phi_min) == pytest.approx(0.5)
-    assert 1.0 / math.tan(law.phi_max) == pytest.approx(-0.5)
+    assert isinstance(push.steadying, Steadying)
+    assert push.law.kp == 0.3
 
 
 def test_only_a_finger_of_two_axes_goes_back():
@@ -140,19 +127,6 @@ def test_a_finger_of_two_axes_has_to_be_faster_than_the_belt():
         make_control(PushControllerParameters(belt_speed=0.03, axes=2))
 
 
-def test_the_law_that_settles_gets_its_numbers_and_those_of_law_18():
-    values = PushControllerParameters(
-        law=SETTLE, kp=0.1, kd=2.0, theta_desired=0.3, belt_speed=0.02, max_speed=0.01
-    )
-    steps = steps_of(values)
-    law = steps.push.law
-    assert isinstance(steps.placing, Settling)
-    assert (law.kp, law.kd, law.aim) == (0.1, 2.0, 0.3)
-    assert 1.0 / math.tan(law.phi_min) == pytest.approx(0.5)
-    take_values(steps.push, replace(values, theta_desired=0.2))
-    assert law.aim == 0.2
-
-
 @pytest.mark.parametrize(
     ('given', 'refusal'),
     [
@@ -164,21 +138,6 @@ def test_what_cannot_place_is_refused(given, refusal):
     make_control(PushControllerParameters(**given))
     with pytest.raises(ValueError, match=refusal):
         make_control(PushControllerParameters(law=PLACE, **given))
-
-
-def test_the_law_that_steers_is_law_18_with_steering_until_another_is_chosen():
-    values = PushControllerParameters(law=STEER, kp=0.1, edge_distance=0.03, finger_radius=0.01)
-    push = make_control(values)
-    steps = Control(push, make_finger(values), values.joint_names, lambda sec, nanosec: sec)
-    choose_law(steps, values, lambda sec, nanosec: sec)
-    assert isinstance(steps.placing, Carrying)
-    assert isinstance(push.steadying, Steering)
-    assert (push.steadying.l, push.steadying.r) == (0.03, 0.01)
-    assert math.isnan(push.steadying.goal)
-    take_values(push, values)
-    assert push.law.kp == 0.1
-    choose_law(steps, PushControllerParameters(), lambda sec, nanosec: sec)
-    assert isinstance(push.steadying, Steadying)
 
 
 @pytest.mark.parametrize(
