@@ -11,7 +11,7 @@ from abc import ABC, abstractmethod
 from collections import deque
 from collections.abc import Iterator, Sequence
 
-from tactile_push.control import PUSHING, PushControl, Tick
+from tactile_push.control import PUSHING, UNKNOWN, Drift, Outlook, PushControl, Tick
 from tactile_push.control.placing.believing import Belief, BelievingLaw
 from tactile_push.control.placing.model import Goal, centre_of_mass
 from tactile_push.control.placing.stages import (
@@ -170,6 +170,16 @@ class Believing(ABC):
         self._periods.append((now, tick.x_at_reading(self._v_x), turning))
         self._ticked, self._v_x = now, tick.known_velocity
 
+    def outlook(self, drift: Drift, tick: Tick, turning: float) -> Outlook:
+        """Return where the finger's drift leads, unless it is part of a plan.
+
+        Parameters
+        ----------
+        drift, tick, turning : Drift, Tick, float
+            What averages it; as in `finish`.
+        """
+        return UNKNOWN
+
     @abstractmethod
     def look_ahead(self) -> None:
         """Find out about the goal what takes its time, after the command was given."""
@@ -180,11 +190,7 @@ class Believing(ABC):
 
     def values(self) -> dict[str, float]:
         """Return the numbers of `place/state` after a tick, by name."""
-        x = theta = d = math.nan
-        present = self._law.present()
-        if present is not None:
-            now, belief = present
-            x, theta, d = centre_of_mass(now, belief.pushed), now.theta, now.d
+        x, theta, d = self._where
         return dict.fromkeys(TOPICS[PLACE_STATE].field_names, math.nan) | {
             'stage': float(STAGES.index(self.stage)),
             'refusal': float(REFUSALS.index(self.refusal)),
@@ -197,6 +203,15 @@ class Believing(ABC):
             'estimate_age': self._ticked - self._used if self._heard is not NOTHING else math.nan,
             'turning': self._periods[-1][2] if self._periods else math.nan,
         }
+
+    @property
+    def _where(self) -> tuple[float, float, float]:
+        """Where the object is believed: x of its centre [m], theta [rad], d [m]; NaN if nowhere."""
+        present = self._law.present()
+        if present is None:
+            return math.nan, math.nan, math.nan
+        now, belief = present
+        return centre_of_mass(now, belief.pushed), now.theta, now.d
 
     @property
     @abstractmethod

@@ -44,7 +44,7 @@ class Control:
         By how much the tip turns where the finger is for each metre across the belt, dpsi/dx
         [rad/m]; NaN if unknown.
     outlook : Outlook
-        Where the finger's drift leads, as of the last tick; unknown with a law that has goals.
+        Where the finger's drift leads, as of the last tick; unknown while an object is placed.
     placing : Believing or None
         What serves goals, if the law believes.
     """
@@ -157,6 +157,7 @@ class Control:
             self.placing.begin()
             tick = self.push.tick(now, elapsed)
             self.placing.finish(now, tick, self.turning)
+            self.outlook = self.placing.outlook(self._drift, tick, self.turning)
         return tick
 
     def deactivate(self) -> Tick:

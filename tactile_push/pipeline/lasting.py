@@ -5,7 +5,7 @@
 import math
 from abc import abstractmethod
 
-from tactile_push.control import PUSHING
+from tactile_push.control import PUSHING, Drift, Outlook, Tick
 from tactile_push.control.placing.model import Goal
 from tactile_push.control.placing.settle_law import SettleLaw
 from tactile_push.control.placing.steer_law import SteerLaw
@@ -46,6 +46,10 @@ class Lasting(Believing):
         is_new = self._take_estimate()
         self._unknown = 0 if is_new and self._belief is not None else self._unknown + 1
         self._law.believe(self._belief if self._known else None, self._ticked - self._read)
+
+    def outlook(self, drift: Drift, tick: Tick, turning: float) -> Outlook:
+        """Return where the finger's drift leads while theta is what the law brings it to."""
+        return drift.follow(tick, self._law.aim, turning)
 
     def look_ahead(self) -> None:
         """Look for nothing: what cannot be reached is brought as near as it can be."""

@@ -9,7 +9,7 @@ Until there is a goal, and after one was given up, law (18) acts as it is. Witho
 import math
 from collections.abc import Sequence
 
-from tactile_push.control import Steering
+from tactile_push.control import Drift, Outlook, Steering, Tick
 from tactile_push.control.placing.model import Goal
 from tactile_push.control.placing.stages import OUTSIDE_WORKSPACE, STEERS
 from tactile_push.pipeline.lasting import Lasting
@@ -41,6 +41,16 @@ class Carrying(Lasting):
         super().begin()
         if self._known:
             self._push.steadying.reset()  # so that without an estimate it begins where theta is
+
+    def outlook(self, drift: Drift, tick: Tick, turning: float) -> Outlook:
+        """Return where the finger's drift leads; to a goal it may move on."""
+        goal = self._law.goal
+        if math.isnan(goal):
+            return super().outlook(drift, tick, turning)
+        # At whatever angle, and it does not grow by itself: the law sees to that.
+        told = drift.follow(tick, tick.theta, 0.0)
+        x, _, _ = self._where
+        return told._replace(lasts=math.inf) if told.drift * (goal - x) > 0.0 else told
 
     def values(self) -> dict[str, float]:
         """Return the numbers of `place/state` after a tick, by name."""

@@ -9,7 +9,7 @@ import pytest
 
 from support.placed_run import Line
 from tactile_push import paper
-from tactile_push.control import NO_REASON, PUSHING
+from tactile_push.control import NO_REASON, PUSHING, slow_mode
 from tactile_push.control.law import push_angle
 from tactile_push.control.placing import STAGES
 from tactile_push.control.placing.stages import (
@@ -79,6 +79,22 @@ def test_a_goal_takes_the_place_of_theta_desired_until_it_is_given_up():
         line.period()
     assert line.rig.theta == pytest.approx(paper.THETA_DESIRED, abs=math.radians(1.0))
     assert math.isnan(line.states[-1]['goal_theta'])
+
+
+@pytest.mark.parametrize('room', [0.01, 0.09])
+def test_an_object_that_is_settled_drifts_as_under_law_18(monkeypatch, room):
+    monkeypatch.setattr(slow_mode, 'AVERAGED', 1.0)
+    start = line_at(0.1, 0.003).rig.finger_pose.x
+    line = line_at(0.1, 0.003, theta_desired=0.1, workspace_min=start - room, workspace_max=0.2)
+    assert math.isnan(line.control.outlook.drift)
+    for _ in range(30):
+        line.period()
+    # It translates along the ray from the contact through the centre of mass: docs/placing.md.
+    aside = -math.tan(line.rig.theta + math.atan2(line.rig.d, paper.BLOCK_L))
+    outlook = line.control.outlook
+    assert outlook.drift == pytest.approx(paper.BELT_SPEED * aside, rel=0.1)
+    assert outlook.growth > 0.0
+    assert outlook.soon is (room < 0.03)
 
 
 @pytest.mark.parametrize(

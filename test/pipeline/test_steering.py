@@ -8,7 +8,7 @@ import pytest
 
 from support.placed_run import Line
 from tactile_push import paper
-from tactile_push.control import CONTACT_SILENT, PUSHING, STOPPED
+from tactile_push.control import CONTACT_SILENT, PUSHING, STOPPED, slow_mode
 from tactile_push.control.law import push_angle
 from tactile_push.control.placing import STAGES
 from tactile_push.control.placing.stages import (
@@ -66,6 +66,24 @@ def test_a_goal_is_steered_to_whatever_the_yaw_is_and_nothing_is_let_go():
     assert line.states[-1]['goal_x'] == pytest.approx(line.home + 0.003)
     assert line.states[-1]['x'] == pytest.approx(line.centre, abs=1e-3)
     assert PLACE_RELEASE not in {topic for topic, _, _ in line.heard}
+
+
+def test_an_object_that_is_steered_drifts_wherever_its_goal_is_not(monkeypatch):
+    monkeypatch.setattr(slow_mode, 'AVERAGED', 0.5)
+    line = line_at(0.1, 0.003)  # which drifts to the left
+    line.ask(-0.05, 0.0)
+    periods(line, 12)
+    on_its_way = line.control.outlook
+    assert on_its_way.drift < -5e-4
+    assert (on_its_way.lasts, on_its_way.e_fold) == (math.inf, math.inf)
+    line.ask(0.05, 0.0)
+    line.period()
+    away = line.control.outlook
+    way = line.ticks[-1].finger_x - line.control.push.limits.workspace_min
+    assert away.lasts == pytest.approx(way / -away.drift)
+    assert line.placing.cancel()
+    line.period()  # law (18) acts, and theta is not where it is to be
+    assert math.isnan(line.control.outlook.drift)
 
 
 @pytest.mark.parametrize(
