@@ -71,7 +71,7 @@ def test_a_goal_is_steered_to_whatever_the_yaw_is_and_nothing_is_let_go():
 def test_an_object_that_is_steered_drifts_wherever_its_goal_is_not(monkeypatch):
     monkeypatch.setattr(slow_mode, 'AVERAGED', 0.5)
     line = line_at(0.1, 0.003)  # which drifts to the left
-    line.ask(-0.05, 0.0)
+    line.ask(-0.03, 0.0)
     periods(line, 12)
     on_its_way = line.control.outlook
     assert on_its_way.drift < -5e-4

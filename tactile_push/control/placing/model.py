@@ -10,7 +10,7 @@ import math
 from typing import NamedTuple
 
 from tactile_push.mechanics.compiled import compiled, equation
-from tactile_push.mechanics.resistance import Pressure, settled
+from tactile_push.mechanics.resistance import LEAST_COSINE, Pressure, settled
 
 LONGEST_STEP = 5e-4  # of `follow` [m]: the belt's way in a control period of the paper
 ROUNDING = 1e-6  # of a number of steps
@@ -65,20 +65,43 @@ def centre_of_mass(now: Situation, pushed: Pushed) -> float:
 
 
 @equation
-def _rates(theta: float, d: float, u: float, pushed: Pushed) -> tuple[float, float, bool]:
-    """Compute theta' and d' under a velocity of the finger, and whether it pushes."""
+def _rates(
+    theta: float, d: float, u: float, pushed: Pushed
+) -> tuple[float, float, float, float, bool]:
+    """Compute theta' and d' under a velocity of the finger, and how d follows a slip.
+
+    Then come the lever by which theta' takes from d', the rate at which d gets to where the slip
+    would leave it, 0 if there is none, and whether the finger pushes.
+    """
     cos, sin, spin = math.cos(theta), math.sin(theta), pushed.turning * u
     v_t, v_n = cos * u + sin - pushed.r * spin, cos - sin * u
-    _, _, _, omega, v_slip = settled(
+    c_squared, _, _, omega, v_slip = settled(
         v_t, v_n, d, pushed.l, pushed.cos_alpha, pushed.sin_alpha, pushed.pressure
     )
     pushes = v_n > 0.0 or omega != 0.0 or v_slip != v_t
-    return omega, v_slip - pushed.r * (omega - spin), pushes  # (16)
+    lever, rate = pushed.l + pushed.r, 0.0
+    if v_slip != 0.0 and omega != 0.0:
+        # By (13) and (15) omega = v_n (d + steep l)/(c^2 + d^2 + steep l d), and by (14) v_slip =
+        # v_t - steep v_n - (l - steep d) omega.
+        steep = math.copysign(pushed.sin_alpha / max(pushed.cos_alpha, LEAST_COSINE), v_slip)
+        lever = max(lever - steep * d, pushed.r)
+        rate = lever * v_n / (c_squared + d * (d + steep * pushed.l))
+    return omega, v_slip - pushed.r * (omega - spin), lever, max(rate, 0.0), pushes  # (16)
+
+
+@equation
+def _reached(h: float, rate: float) -> float:
+    """Return the integral of exp(-rate s) over a way h."""
+    return -math.expm1(-rate * h) / rate if rate > 0.0 else h
 
 
 @equation
 def step(now: Situation, command: float, h: float, pushed: Pushed) -> tuple[Situation, bool]:
-    """Move by a short piece of belt under one command; the midpoint rule.
+    """Move by a piece of belt under one command; the midpoint rule.
+
+    A contact that slips gets to where it slips no more within c^2/(l + r) of belt, which may be
+    shorter than a step. So d is taken to get there exponentially, and theta by what d has left of
+    the finger's way along the edge.
 
     Parameters
     ----------
@@ -101,11 +124,15 @@ def step(now: Situation, command: float, h: float, pushed: Pushed) -> tuple[Situ
     decay = math.exp(-h / pushed.lag) if pushed.lag > 0.0 else 0.0
     gap = now.u - command
     u = command + (gap * (1.0 - decay) * pushed.lag / h if h > 0.0 else 0.0)  # on the mean
-    turn, slide, _ = _rates(now.theta, now.d, u, pushed)
-    middle = now.theta + h / 2.0 * turn, now.d + h / 2.0 * slide
-    turn, slide, pushes = _rates(middle[0], middle[1], u, pushed)
+    turn, slide, lever, rate, _ = _rates(now.theta, now.d, u, pushed)
+    aside = _reached(h / 2.0, rate) * slide
+    theta = now.theta + h / 2.0 * turn + (h / 2.0 * slide - aside) / lever
+    turn, slide, lever, later, pushes = _rates(theta, now.d + aside, u, pushed)
+    rate = max(rate, later)
+    moved = _reached(h, rate) * (slide + rate * aside)
     after = Situation(
-        now.x + h * u, now.theta + h * turn, now.d + h * slide, command + gap * decay, command
+        *(now.x + h * u, now.theta + h * turn + (h * slide - moved) / lever, now.d + moved),
+        *(command + gap * decay, command),
     )
     return after, pushes
 

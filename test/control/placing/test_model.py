@@ -17,6 +17,7 @@ from tactile_push.control.placing.model import (
     follow,
     narrowed,
     outside,
+    step,
     translating,
 )
 from tactile_push.mechanics import Outline, Pose, Slider, friction_cone
@@ -28,29 +29,48 @@ L, R, C, BELT = 0.02375, 0.0135, 0.0187, 0.005
 ROUND = np.array((1.0, 0.0, 1.0))
 
 
-def pushed(mu_c=math.inf, turning=0.0, lag=0.0):
-    return Pushed(L, R, Pressure(C * C, 0.0, 0.0, ROUND), *friction_cone(mu_c), turning, lag)
+def pushed(mu_c=math.inf, turning=0.0, lag=0.0, c=C):
+    return Pushed(L, R, Pressure(c * c, 0.0, 0.0, ROUND), *friction_cone(mu_c), turning, lag)
+
+
+def finger_pushes(start, way, mu_c, turning=0.0, c=C):
+    """Return theta, d and the centre of mass after a push under the equations of the paper."""
+    slider = Slider(Outline.rectangle(0.2, 2.0 * L), c)
+    x, theta, d, u, _ = start
+    sigma = slider.outline.sigma(R, d=d)
+    pose = Pose(centre_of_mass(start, pushed()), 0.0, theta)
+    y = d * math.sin(theta) - (L + R) * math.cos(theta)  # of the disk, from the centre of mass
+    found, contact, _, _ = move_finger(
+        *(pose, sigma, True, x, y, BELT * u, BELT, way / BELT),
+        *(slider.body(R), Finger(*friction_cone(mu_c), R), turning * BELT * u),
+    )
+    return found.angle, d + contact - sigma, found.x
 
 
 @pytest.mark.parametrize('mu_c', [0.0, 0.2, 1.0, math.inf])
 @pytest.mark.parametrize(('theta', 'd', 'u'), [(0.3, -0.006, -1.2), (-0.2, 0.008, 0.5)])
 @pytest.mark.parametrize('turning', [0.0, -12.5])
 def test_a_piece_of_belt_is_the_push_of_the_finger_over_it(mu_c, theta, d, u, turning):
-    slider = Slider(Outline.rectangle(0.2, 2.0 * L), C)
-    sigma = slider.outline.sigma(R, d=d)
-    start = Situation(0.02, theta, d, u, u)
-    pose = Pose(centre_of_mass(start, pushed()), 0.0, theta)
-    y = d * math.sin(theta) - (L + R) * math.cos(theta)  # of the disk, from the centre of mass
-    way = 0.006
+    start, way = Situation(0.02, theta, d, u, u), 0.006
     after = follow(start, u, way, pushed(mu_c, turning))
-    found, contact, _, _ = move_finger(
-        *(pose, sigma, True, start.x, y, BELT * u, BELT, way / BELT),
-        *(slider.body(R), Finger(*friction_cone(mu_c), R), turning * BELT * u),
-    )
+    angle, contact, centre = finger_pushes(start, way, mu_c, turning)
     assert after.x == pytest.approx(start.x + u * way, abs=1e-15)
-    assert after.theta == pytest.approx(found.angle, abs=1e-4)
-    assert after.d - d == pytest.approx(contact - sigma, abs=5e-6)
-    assert centre_of_mass(after, pushed()) == pytest.approx(found.x, abs=5e-6)
+    assert after.theta == pytest.approx(angle, abs=1e-4)
+    assert after.d == pytest.approx(contact, abs=5e-6)
+    assert centre_of_mass(after, pushed()) == pytest.approx(centre, abs=5e-6)
+
+
+@pytest.mark.parametrize('mu_c', [0.0, 0.1, 0.5])
+@pytest.mark.parametrize(('theta', 'd', 'u'), [(0.1, 0.008, -0.3), (-0.2, -0.008, 0.5)])
+def test_a_slip_that_dies_away_within_a_step_ends_where_it_does(mu_c, theta, d, u):
+    c, h = 0.004, 0.006  # the slip is over within 0.4 mm of belt
+    start = now = Situation(0.02, theta, d, u, u)
+    for _ in range(3):
+        now, _ = step(now, u, h, pushed(mu_c, c=c))
+    angle, contact, centre = finger_pushes(start, 3.0 * h, mu_c, c=c)
+    assert now.theta == pytest.approx(angle, abs=math.radians(0.5))
+    assert now.d == pytest.approx(contact, abs=2e-4)
+    assert centre_of_mass(now, pushed()) == pytest.approx(centre, abs=3e-4)
 
 
 def test_a_finger_that_lags_goes_as_far_as_a_first_order_servo():
