@@ -34,7 +34,8 @@ def compile_steering() -> None:
     """Compile now, or load, what the law that steers compiles."""
     law = SteerLaw(0.0, paper.BELT_SPEED, paper.CONTROL_PERIOD)
     law.goal = 0.0
-    _push(law, (5e-3, 5e-3))
+    _push(law, (5e-3,))
+    _push(law, (5e-3, 5e-3), mu_c=0.0)  # where the contact slips it plans, and goes on with that
 
 
 def compile_settling() -> None:
@@ -42,10 +43,10 @@ def compile_settling() -> None:
     _push(SettleLaw(0.0, paper.BELT_SPEED, paper.CONTROL_PERIOD), (5e-3,))
 
 
-def _push(law: BelievingLaw, deviations: Sequence[float]) -> None:
+def _push(law: BelievingLaw, deviations: Sequence[float], mu_c: float = 1.0) -> None:
     """Let a law push some way from its goal, with standard deviations of d in turn [m]."""
     pressure = Pressure(paper.C_UNIFORM**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)), 0.0)
-    cos_alpha, sin_alpha = friction_cone(1.0)
+    cos_alpha, sin_alpha = friction_cone(mu_c)
     l, r = paper.BLOCK_L, paper.FINGER_RADIUS
     pushed = Pushed(l, r, pressure, cos_alpha, sin_alpha, 0.0, 0.0)
     ends = -paper.BLOCK_EDGE / 2.0, paper.BLOCK_EDGE / 2.0

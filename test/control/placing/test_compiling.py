@@ -10,8 +10,13 @@ from support.package import run_python
 TESTS = Path(__file__).parents[2]
 
 
+# What each law calls when it has to.
+FUNCTIONS = 'refinement.refine', 'holding.holding_push', 'turning.turning_command'
+PLACING = 'tactile_push.control.placing'
+
+
 @pytest.mark.slow
-def test_nothing_is_left_to_compile_while_an_object_is_placed():
+def test_nothing_is_left_to_compile_while_an_object_is_pushed():
     found = run_python(
         'import json, sys\n'
         f'sys.path.insert(0, {str(TESTS)!r})\n'
@@ -30,14 +35,17 @@ def test_nothing_is_left_to_compile_while_an_object_is_placed():
         '        if isinstance(value, CPUDispatcher)\n'
         '    }\n'
         'compile_sensing(ActiveSensingParameters.of(SENSING))\n'
-        'line = Line()\n'  # which compiles the law
+        'laws = "place", "steer", "settle"\n'
+        'place, steer, settle = (Line(law=law) for law in laws)\n'  # which compiles them
         'before = compiled()\n'
-        'line.ask(-0.02, -0.1)\n'
-        'line.until(lambda: line.placing.released)\n'
-        'line.ask(0.09, 0.6)\n'  # out of reach
-        'for _ in range(40): line.period()\n'
+        'place.ask(-0.02, -0.1)\n'
+        'place.until(lambda: place.placing.released)\n'
+        'place.ask(0.09, 0.6)\n'  # out of reach
+        'steer.ask(0.01, 0.0)\n'
+        'for _ in range(40): place.period(), steer.period(), settle.period()\n'
         'print(json.dumps([before, compiled(), bool(numba.config.DISABLE_JIT)]))'
     )
     before, after, as_plain_python = found
     assert after == before
-    assert as_plain_python or before['tactile_push.control.placing.refinement.refine'] == 1
+    compiled = [before[f'{PLACING}.{name}'] for name in FUNCTIONS]
+    assert as_plain_python or compiled == [1] * len(FUNCTIONS)
