@@ -375,6 +375,10 @@ TOPICS = {
                     'period'),
                 Field('estimate_age', 's', 'age of the estimate that was used'),
                 Field('turning', 'rad/m', 'by how much the finger tip turns for its way'),
+                Field('finger_y', 'm', 'where the finger is along the belt, in `finger_base`'),
+                Field('bend', '',
+                    'where the second link is bent to from the first: 1 counterclockwise, -1 '
+                    'clockwise, 0 if a wrist holds the tip'),
             ),
         ),
         Topic(PLACE_RELEASE, BOOL_TYPE, (PUSH_CONTROLLER,), ('the finger', *PLANTS),

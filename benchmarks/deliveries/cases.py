@@ -21,7 +21,7 @@ from tactile_push.mechanics import Outline, Slider, Support
 from tactile_push.mechanics.support import COUNT
 from tactile_push.simulation import Rig, RigConfig
 from tactile_push.simulation.faults import Faults
-from tactile_push.simulation.placement import pushed_of, turning_of
+from tactile_push.simulation.placement import pushed_of, tip_of
 from tactile_push.simulation.sensor import Sensor
 from tactile_push.simulation.servo import Servo
 
@@ -32,6 +32,7 @@ WIDEST_X, WIDEST_THETA = 0.05, 0.5  # of starts and goals, from straight ahead [
 WIDEST_D = 0.72  # of starts, as a share of half the edge
 WORKSPACE = (-0.105, 0.105)  # [m]
 THETA_MAX = math.radians(50.0)  # in plans
+FELT = math.pi / 2.0  # largest angle between the tip's pole and a contact that is felt [rad]
 HELD = 0.03  # belt on which the object translates before a reserve is asked for [m]
 PATCH = 0.01  # radius of a patch that bears an object [m]
 RATE = 0.05 / paper.BELT_SPEED**2  # largest change of cot(phi) a metre of belt [1/m]
@@ -104,8 +105,9 @@ def case(seed: int, group: Group) -> Case:
         float(rng.uniform(-WIDEST_THETA, WIDEST_THETA)),
     )
     lag = group.lag * config.belt_speed
-    pushed = pushed_of(config)._replace(lag=lag, turning=turning_of(rig))
-    bounds = Bounds(1.0 / math.tan(paper.PHI_MIN), RATE, *WORKSPACE, *edge.d, THETA_MAX)
+    pushed = pushed_of(config)._replace(lag=lag, tip=tip_of(config, rig.joints))
+    steepest = 1.0 / math.tan(paper.PHI_MIN)
+    bounds = Bounds(steepest, RATE, *WORKSPACE, *edge.d, THETA_MAX, FELT)
     task = Task(Situation(x, theta, d, 0.0, 0.0), pushed, bounds, group.belt)
     verdict = reach(task, goal).verdict
     if verdict == WITH_RESERVE and not with_reserve(_held(task)).arrives(goal):

@@ -128,7 +128,7 @@ def _task(options: argparse.Namespace) -> 'tuple[Task, float]':
     from tactile_push.control.placing.reachability import Task
     from tactile_push.mechanics import Slider
     from tactile_push.simulation.by_touch import LAG, check_edges
-    from tactile_push.simulation.placement import edge_ends, pushed_of
+    from tactile_push.simulation.placement import edge_ends, pushed_of, tip_of
 
     config = config_of(options)
     if hasattr(options, 'c_mm'):
@@ -147,10 +147,10 @@ def _task(options: argparse.Namespace) -> 'tuple[Task, float]':
         1.0 / math.tan(paper.PHI_MIN),
         limits.max_acceleration / config.belt_speed**2,
         *(limits.workspace_min, limits.workspace_max),
-        *(*ends, LARGEST_ANGLE),
+        *(*ends, LARGEST_ANGLE, math.pi / 2.0),
     )
     pushed = pushed_of(config)._replace(
-        turning=finger.turning(*finger.inverse(x, config.tip.y)), lag=LAG * config.belt_speed
+        tip=tip_of(config, finger.inverse(x, config.tip.y)), lag=LAG * config.belt_speed
     )
     now = Situation(x, config.theta, d, 0.0, 0.0)
     return Task(now, pushed, bounds, options.belt_mm / 1e3), x

@@ -74,6 +74,7 @@ def _bounds(p: PushControllerParameters) -> dict[str, Any]:
         'lag': p.finger_lag,
         'workspace': (p.workspace_min, p.workspace_max),
         'rate': p.max_acceleration,
+        'felt': p.detectable_range,
         'phi_min': max(p.phi_min, slowest),
         'phi_max': min(p.phi_max, math.pi - slowest),
     }

@@ -39,6 +39,9 @@ class PushControllerParameters(NodeParameters):
         'distance l from the pushed edge to the centre of mass, for the trim and for telling how '
         'fast a drift grows', 1e-3, 1.0, read_only=True)
     finger_radius: float = shared.finger_radius
+    detectable_range: float = parameter(math.pi / 2.0, 'rad',
+        'largest angle between the pole and a contact that the sensor detects properly, as in '
+        'contact_geometry, which laws with goals do not leave', 0.1, 1.6, read_only=True)
     belt_length: float = parameter(0.3, 'm',
         'belt that there is to place an object, from the first contact on; without having placed '
         'it the finger then stands still', 0.01, 100.0, read_only=True)

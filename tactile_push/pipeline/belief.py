@@ -3,7 +3,7 @@
 """From the numbers of `active_sensing/state` to what the law that places believes."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Pushed
 from tactile_push.mechanics import friction_cone
 from tactile_push.mechanics.resistance import Pressure
+from tactile_push.mechanics.turning_tip import TurningTip
 
 NARROWEST = 1e-5  # standard deviation of d [m]; with 0 nothing could be learned
 LARGEST, LEAST = 1e3, 1e-12  # of what an object can be like, in units of SI; picked
@@ -28,7 +29,7 @@ LOWEST = {
 
 
 def belief_of(
-    values: Mapping[str, float], x: float, turning: float, reading: float
+    values: Mapping[str, float], x: float, links: Sequence[float], reading: float
 ) -> Belief | None:
     """Return what is believed at a reading: the means under the most likely edge.
 
@@ -36,9 +37,10 @@ def belief_of(
     ----------
     values : mapping of str to float
         Numbers of `active_sensing/state` by name.
-    x, turning : float
-        Centre of the finger's disk across the belt [m], and by how much the tip turns there for
-        each metre [rad/m].
+    x : float
+        Centre of the finger's disk across the belt [m].
+    links : sequence of float
+        The finger's links, as `Control.links`.
     reading : float
         Belt between two readings [m].
 
@@ -47,7 +49,7 @@ def belief_of(
     Belief or None
         What is believed; None if anything that it takes is not known, or like no object at all.
     """
-    numbers = [*(values.get(name, math.nan) for name in NEEDED), x, turning]
+    numbers = [*(values.get(name, math.nan) for name in NEEDED), x, *links]
     known = all(values.get(name, math.nan) >= 0.0 for name in FRICTION)
     if not (known and all(abs(number) <= LARGEST for number in numbers)):  # which NaN is not
         return None
@@ -58,7 +60,8 @@ def belief_of(
     pressure = Pressure(
         *(values['c_squared'], values['growth'], values['shape'], moments, values['tilt'])
     )
-    pushed = Pushed(*(values['l'], values['radius'], pressure, cos_alpha, sin_alpha, turning, 0.0))
+    tip = TurningTip(*links)
+    pushed = Pushed(*(values['l'], values['radius'], pressure, cos_alpha, sin_alpha, tip, 0.0))
     spread = Spread(
         values['theta_deviation'],
         max(values['d_deviation'], NARROWEST),

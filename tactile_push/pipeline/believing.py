@@ -65,9 +65,9 @@ class Believing(ABC):
         self._unknown = 0  # control periods since the last estimate that said something
         self._belief: Belief | None = None
         self._read = math.nan  # when the reading was taken that it is about [s]
-        # When a control period began [s], where the finger was at its reading [m], and how the tip
-        # turned there for its way [rad/m].
-        self._periods: deque[tuple[float, float, float]] = deque(maxlen=4 * OLDEST)
+        # When a control period began [s], where the finger was at its reading [m], and its links.
+        self._periods: deque[tuple[float, float, Sequence[float]]] = deque(maxlen=4 * OLDEST)
+        self._turning = math.nan  # of the tip for its way [rad/m]
         self._ticked = math.nan  # [s]
         self._v_x = math.nan  # from the last tick on [m/s]
 
@@ -158,16 +158,17 @@ class Believing(ABC):
     def begin(self) -> None:
         """Begin a control period, before the control ticks."""
 
-    def finish(self, now: float, tick: Tick, turning: float) -> None:
+    def finish(self, now: float, tick: Tick, turning: float, links: Sequence[float]) -> None:
         """Take what came of a control period.
 
         Parameters
         ----------
-        now, tick, turning : float, Tick, float
-            When it began [s], what the control used and gave, and by how much the tip turns for
-            each metre across the belt [rad/m].
+        now, tick, turning, links : float, Tick, float, sequence of float
+            When it began [s], what the control used and gave, by how much the tip turns for each
+            metre across the belt [rad/m], and the finger's links, as `Control.links`.
         """
-        self._periods.append((now, tick.x_at_reading(self._v_x), turning))
+        self._periods.append((now, tick.x_at_reading(self._v_x), links))
+        self._turning = turning
         self._ticked, self._v_x = now, tick.known_velocity
 
     def outlook(self, drift: Drift, tick: Tick, turning: float) -> Outlook:
@@ -191,6 +192,7 @@ class Believing(ABC):
     def values(self) -> dict[str, float]:
         """Return the numbers of `place/state` after a tick, by name."""
         x, theta, d = self._where
+        _, _, y, bend = self._periods[-1][2] if self._periods else (math.nan,) * 4
         return dict.fromkeys(TOPICS[PLACE_STATE].field_names, math.nan) | {
             'stage': float(STAGES.index(self.stage)),
             'refusal': float(REFUSALS.index(self.refusal)),
@@ -201,7 +203,9 @@ class Believing(ABC):
             'theta': theta,
             'd': d,
             'estimate_age': self._ticked - self._used if self._heard is not NOTHING else math.nan,
-            'turning': self._periods[-1][2] if self._periods else math.nan,
+            'turning': self._turning,
+            'finger_y': y,
+            'bend': bend,
         }
 
     @property
@@ -238,8 +242,8 @@ class Believing(ABC):
         self._used = at
         self._belief, self._read = None, math.nan
         read = at - values.get('age', math.nan)
-        for began, x, turning in self._periods:
+        for began, x, links in self._periods:
             if began == at and math.isfinite(read):
                 piece = self._push.period * self._push.belt_speed
-                self._belief, self._read = belief_of(values, x, turning, piece), read
+                self._belief, self._read = belief_of(values, x, links, piece), read
         return True

@@ -43,6 +43,11 @@ class Control:
     turning : float
         By how much the tip turns where the finger is for each metre across the belt, dpsi/dx
         [rad/m]; NaN if unknown.
+    line : float
+        Where the disk's centre is along the belt, in `finger_base` [m]; NaN if unknown.
+    bend : float
+        Where the second link is bent to from the first: 1 counterclockwise, -1 clockwise, and 0 if
+        a wrist holds the tip straight; NaN if unknown.
     outlook : Outlook
         Where the finger's drift leads, as of the last tick; unknown while an object is placed.
     placing : Believing or None
@@ -62,10 +67,15 @@ class Control:
             *(push.steadying.l, push.steadying.r, push.belt_speed, push.period),
             *(push.limits.workspace_min, push.limits.workspace_max),
         )
-        self.turning = math.nan
+        self.turning = self.line = self.bend = math.nan
         self.outlook = UNKNOWN
         self.placing: Believing | None = None
         self._now = math.nan  # of the last tick [s]
+
+    @property
+    def links(self) -> tuple[float, float, float, float]:
+        """How the tip turns on its way: lengths of the finger's links [m], `line`, `bend`."""
+        return self._finger.proximal_length, self._finger.distal_length, self.line, self.bend
 
     @property
     def steadies(self) -> bool:
@@ -129,6 +139,7 @@ class Control:
         self._located_at = self._seconds(*stamp)
         self.push.locate_finger(x, self._located_at, psi)
         self.turning = turning if len(joints) == 2 else 0.0
+        self.line, self.bend = self._finger.line(joints)
         return TAKEN
 
     def tick(self, stamp: Stamp, elapsed: float = math.nan) -> Tick:
@@ -156,7 +167,7 @@ class Control:
         else:
             self.placing.begin()
             tick = self.push.tick(now, elapsed)
-            self.placing.finish(now, tick, self.turning)
+            self.placing.finish(now, tick, self.turning, self.links)
             self.outlook = self.placing.outlook(self._drift, tick, self.turning)
         return tick
 

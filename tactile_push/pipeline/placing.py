@@ -7,7 +7,7 @@ and `finish` takes what came of it. `PushControl` decides when the finger stops,
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from tactile_push.control import CONTACT_SILENT, PUSHING, PushControl, Tick
 from tactile_push.control.placing.law import PlaceLaw
@@ -133,9 +133,9 @@ class Placing(Believing):
             law.end(NOTHING_KNOWN)
         law.believe(self._belief, self._ticked - self._read)
 
-    def finish(self, now: float, tick: Tick, turning: float) -> None:
+    def finish(self, now: float, tick: Tick, turning: float, links: Sequence[float]) -> None:
         """Take what came of a control period, as in `Believing`."""
-        super().finish(now, tick, turning)
+        super().finish(now, tick, turning, links)
         if self._acts:
             self._began = min(self._began, now)
             if tick.stop_reason == CONTACT_SILENT:

@@ -77,6 +77,7 @@ class RecordedPlacing:
         now = self._seconds(*stamp)
         assert placing is not None
         step.turning = values['turning']
+        step.line, step.bend = (values.get(name, math.nan) for name in ('finger_y', 'bend'))
         if values['released'] > placing.released:
             placing.release()
         self._repeat_goals(placing, values)

@@ -4,7 +4,7 @@
 
 import math
 import typing
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +20,7 @@ from tactile_push.estimation.prior import ROUND
 from tactile_push.mechanics import Slider, friction_cone
 from tactile_push.mechanics.contact import D_START, L_START, LENGTH, TAU
 from tactile_push.mechanics.resistance import Pressure, resistance
+from tactile_push.mechanics.turning_tip import STRAIGHT, TurningTip
 from tactile_push.pipeline import Sensing
 from tactile_push.pipeline.belief import belief_of
 from tactile_push.simulation.experiment import control_periods
@@ -138,7 +139,7 @@ def believing(
             law.believe(_truth(rig, piece))
         else:
             values = steps.tick((k, 0), tick).values
-            law.believe(belief_of(values, rig.finger_pose.x, turning_of(rig), piece))
+            law.believe(belief_of(values, rig.finger_pose.x, tip_of(rig.config, rig.joints), piece))
 
 
 def followed(
@@ -211,7 +212,7 @@ def pushed_of(config: RigConfig) -> Pushed:
     cos_alpha, sin_alpha = friction_cone(config.mu_c)
     l = float(config.body.path[0, L_START])
     pressure = pressure_of(config.slider, float(config.body.path[0, TAU]))
-    return Pushed(l, config.radius, pressure, cos_alpha, sin_alpha, 0.0, 0.0)
+    return Pushed(l, config.radius, pressure, cos_alpha, sin_alpha, STRAIGHT, 0.0)
 
 
 def edge_ends(config: RigConfig) -> tuple[float, float]:
@@ -221,14 +222,15 @@ def edge_ends(config: RigConfig) -> tuple[float, float]:
     return start, start + float(path[0, LENGTH])
 
 
-def turning_of(rig: 'Rig | MujocoRig') -> float:
-    """Return by how much the tip turns for each metre across the belt [rad/m]."""
-    return rig.config.finger.turning(*rig.joints[:2]) if rig.config.tip_turns else 0.0
+def tip_of(config: RigConfig, joints: Sequence[float]) -> TurningTip:
+    """Return how the tip of a rig turns on its way across the belt from given joints on [rad]."""
+    finger = config.finger
+    return TurningTip(finger.proximal_length, finger.distal_length, *finger.line(joints))
 
 
 def _truth(rig: 'Rig | MujocoRig', piece: float) -> Belief:
     config = rig.config
     spread = Spread(CERTAIN, CERTAIN, CERTAIN, CERTAIN, piece)
-    pushed = pushed_of(config)._replace(turning=turning_of(rig))
+    pushed = pushed_of(config)._replace(tip=tip_of(config, rig.joints))
     friction = config.mu_c, config.mu_c
     return Belief(rig.finger_pose.x, rig.theta, rig.d, pushed, friction, edge_ends(config), spread)

@@ -6,8 +6,8 @@ import math
 from typing import NamedTuple
 
 from tactile_push.mechanics.commanded_point import CENTRE, CONTACT, added_way
-from tactile_push.mechanics.compiled import compiled, equation
-from tactile_push.tactile.planar_finger import link_angles
+from tactile_push.mechanics.compiled import compiled
+from tactile_push.mechanics.turning_tip import TurningTip, tip_direction, tip_turning
 
 # Way over which the tip turns as fast as on average [m]. Of the default finger within 4 cm psi is
 # then at most 1.2e-5 rad off on the way, and right at its end.
@@ -15,8 +15,6 @@ EVEN_TURN = 0.5e-3
 LEAST_FOLLOWING = 0.1  # share of the centre's way that the commanded point goes at least; picked
 NEWTON_STEPS = 12  # it takes three
 EXACT = 1e-13  # error of the commanded point's way [m]
-
-_link_angles = equation(link_angles)
 
 
 class Tip(NamedTuple):
@@ -31,13 +29,9 @@ class Tip(NamedTuple):
 
 @compiled
 def tip_angle(tip: Tip, x: float) -> tuple[float, float]:
-    """Return psi [rad] and dpsi/dx [rad/m] with the disk's centre at x; NaN out of reach.
-
-    While the centre goes straight across, 0 = a cos(k) k' + b cos(psi) psi' for the direction k of
-    the first link, and x' = -a sin(k) k' - b sin(psi) psi'. Hence x' cos(k) = b sin(k - psi) psi'.
-    """
-    knuckle, distal = _link_angles(x, tip.y, tip.a, tip.b)
-    return knuckle + distal, math.cos(knuckle) / (-tip.b * math.sin(distal))
+    """Return psi [rad] and dpsi/dx [rad/m] with the disk's centre at x; NaN out of reach."""
+    turning = TurningTip(tip.a, tip.b, tip.y, -1.0)  # the knuckle is to the left of the belt
+    return tip_direction(x, turning), tip_turning(x, turning)
 
 
 @compiled

@@ -122,6 +122,29 @@ class PlanarFinger:
         across = -self.distal_length * math.sin(distal)
         return along / across if across != 0.0 else math.copysign(math.inf, along)
 
+    def line(self, joints: Sequence[float]) -> tuple[float, float]:
+        """Find on which line across the belt given joints keep the disk, and how they are bent.
+
+        With these two and the lengths of the links the tip's direction follows from x alone.
+
+        Parameters
+        ----------
+        joints : sequence of float
+            Angles of the two moving joints and, if it has one, of the wrist that holds the tip
+            straight [rad].
+
+        Returns
+        -------
+        y : float
+            Centre of the disk along the belt, in `finger_base` [m].
+        bend : float
+            Where the second link is bent to from the first: 1 counterclockwise, -1 clockwise; 0 if
+            the tip does not turn with it.
+        """
+        proximal, distal, *wrist = joints
+        bend = 0.0 if wrist else math.copysign(1.0, math.sin(distal))
+        return self.forward(proximal, distal).y, bend
+
     def centre(self, joints: Sequence[float]) -> tuple[float, float]:
         """Find the disk's centre at given joint angles.
 

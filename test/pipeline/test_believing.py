@@ -55,7 +55,7 @@ def period(push, served, k, sensing=None):
     push.feel(0.1, now)
     served.begin()
     tick = push.tick(now)
-    served.finish(now, tick, 0.0)
+    served.finish(now, tick, -12.5, (0.06, 0.08, 0.09, -1.0))
     if sensing is None:
         return None
     said = joint_state_fields(stamp, sensing.tick(stamp, tick).values)
@@ -102,7 +102,8 @@ def test_each_number_of_the_state_is_there_and_unknown_where_nothing_is(served):
     known = {name: value for name, value in values.items() if not math.isnan(value)}
     assert known == {
         'stage': float(STAGES.index(NO_GOAL)),
-        **dict.fromkeys(('refusal', 'goals', 'refused', 'released', 'turning'), 0.0),
+        **dict.fromkeys(('refusal', 'goals', 'refused', 'released'), 0.0),
+        **{'turning': -12.5, 'finger_y': 0.09, 'bend': -1.0},
     }
 
 

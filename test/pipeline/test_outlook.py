@@ -12,12 +12,13 @@ from tactile_push.control.placing.law import NOWHERE
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation
 from tactile_push.control.placing.reachability import Task
 from tactile_push.control.placing.stages import OUT_OF_REACH, UNKNOWN, WITH_RESERVE, WORKSPACE
+from tactile_push.mechanics.turning_tip import STRAIGHT
 from tactile_push.pipeline.outlook import ReachOutlook
 
 BOUNDS = Bounds(1.54, 2000.0, -0.1, 0.1, -0.024, 0.024, 0.85)
 PUSHED = Pushed(
     *(0.02375, 0.0135, PRESSURE),
-    *(0.0, 1.0, 0.0, 0.0),
+    *(0.0, 1.0, STRAIGHT, 0.0),
 )
 TASK = Task(Situation(0.0, 0.1, -0.002, 0.0, 0.0), PUSHED, BOUNDS, 0.4)
 NEAR, BEYOND = Goal(-0.01, 0.0), Goal(-0.14, 0.0)

@@ -12,6 +12,7 @@ from tactile_push.control.placing.past import Past, on_grid
 
 D_MARGIN = 2e-3  # kept from the edge's ends [m]
 X_MARGIN = 1e-3  # kept from the ends of the workspace [m]
+FELT_MARGIN = math.radians(3.0)  # kept from where the sensor feels nothing any more; picked
 
 
 @dataclass(frozen=True)
@@ -44,6 +45,8 @@ class BelievingLaw(PushLaw):
         Largest change of v_x [m/s^2].
     phi_min, phi_max : float, optional
         Bounds of phi [rad], alike on both sides of straight ahead.
+    felt : float, optional
+        Largest angle between the tip's pole and a contact that the sensor feels [rad].
     """
 
     def __init__(
@@ -57,6 +60,7 @@ class BelievingLaw(PushLaw):
         rate: float = 0.05,
         phi_min: float = math.radians(33.0),
         phi_max: float = math.radians(147.0),
+        felt: float = math.pi / 2.0,
     ) -> None:
         super().__init__(0.0, 0.0, theta, phi_min, phi_max)
         self._belt_speed = belt_speed
@@ -65,7 +69,7 @@ class BelievingLaw(PushLaw):
         steepest = min(1.0 / math.tan(phi_min), -1.0 / math.tan(phi_max))
         self._bounds = Bounds(
             *(steepest, rate / belt_speed**2, workspace[0] + X_MARGIN, workspace[1] - X_MARGIN),
-            *(-math.inf, math.inf, math.inf),
+            *(-math.inf, math.inf, math.inf, felt - FELT_MARGIN),
         )
         self._past = Past(self._lag)
         self._belief: Belief | None = None

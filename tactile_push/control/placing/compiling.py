@@ -17,6 +17,7 @@ from tactile_push.control.placing.settle_law import SettleLaw
 from tactile_push.control.placing.steer_law import SteerLaw
 from tactile_push.mechanics import friction_cone
 from tactile_push.mechanics.resistance import Pressure
+from tactile_push.mechanics.turning_tip import STRAIGHT
 
 THETA = 0.1  # of an edge that is some way from the goal [rad]
 
@@ -48,7 +49,7 @@ def _push(law: BelievingLaw, deviations: Sequence[float], mu_c: float = 1.0) -> 
     pressure = Pressure(paper.C_UNIFORM**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)), 0.0)
     cos_alpha, sin_alpha = friction_cone(mu_c)
     l, r = paper.BLOCK_L, paper.FINGER_RADIUS
-    pushed = Pushed(l, r, pressure, cos_alpha, sin_alpha, 0.0, 0.0)
+    pushed = Pushed(l, r, pressure, cos_alpha, sin_alpha, STRAIGHT, 0.0)
     ends = -paper.BLOCK_EDGE / 2.0, paper.BLOCK_EDGE / 2.0
     piece = paper.BELT_SPEED * paper.CONTROL_PERIOD
     for d_deviation in deviations:

@@ -20,6 +20,7 @@ from tactile_push.control.placing.model import (
     bounded_step,
     centre_of_mass,
     outside,
+    rolled,
 )
 from tactile_push.control.placing.solving import solve
 from tactile_push.mechanics.compiled import Array, compiled, equation
@@ -72,8 +73,8 @@ def linear_command(
     """Return the command of the law (S7), as far as the contact sticks, and whether it does."""
     l, r, theta, d = pushed.l, pushed.r, now.theta, now.d
     cos, sin = math.cos(theta), math.sin(theta)
-    rolled = r * pushed.turning
-    q = rolled / (1.0 - rolled * cos)
+    passing = rolled(now, pushed)
+    q = passing / (1.0 - passing * cos)
     resisting = pushed.pressure.c_squared + d * d + l * l
     gamma = resisting / l
     e = d + l * math.tan(theta)
@@ -86,13 +87,13 @@ def linear_command(
     by_e = (2.0 * p + growth + (gamma - l) * by_x) / effect
     most = l * AIMED * by_e / by_x
     turn = by_x * min(max(x, -most), most) - by_e * e
-    command = (turn * resisting - (d * cos + l * sin)) / (l * cos - d * sin - l * rolled)
+    command = (turn * resisting - (d * cos + l * sin)) / (l * cos - d * sin - l * passing)
     # The force acts as the centre of mass moves; its parts along tangent and normal are linear in
     # the command, and so are the edges of the friction cone.
     wanted = command
-    turn_slope = (l * (cos - rolled) - d * sin) / resisting
+    turn_slope = (l * (cos - passing) - d * sin) / resisting
     turn_still = (d * cos + l * sin) / resisting
-    t_slope, t_still = cos - rolled - l * turn_slope, sin - l * turn_still
+    t_slope, t_still = cos - passing - l * turn_slope, sin - l * turn_still
     n_slope, n_still = -sin - d * turn_slope, cos - d * turn_still
     for side in (-1.0, 1.0):
         slope = side * pushed.cos_alpha * t_slope - pushed.sin_alpha * n_slope
@@ -123,7 +124,7 @@ def linear_holds(now: Situation, goal: float, pushed: Pushed, bounds: Bounds) ->
         if not sticks:
             return False
         now, pushes = bounded_step(now, command, LOOK_STEP, pushed, bounds)
-        d, x, theta = outside(now, bounds)
+        d, x, theta = outside(now, pushed, bounds)
         if not pushes or d + x + theta > 0.0:
             return False
     return True
@@ -141,7 +142,7 @@ def _follow(
             wanted = ahead(now, pushed, bounds) + push[i]
             command = min(max(wanted, -bounds.steepest), bounds.steepest)
             now, pushes = bounded_step(now, command, h, pushed, bounds)
-            d, x, theta = outside(now, bounds)
+            d, x, theta = outside(now, pushed, bounds)
             beyond += h * (
                 OUTSIDE * (d + x + STEEP_THETA * theta) + TOO_STEEP * abs(wanted - command)
             )

@@ -73,6 +73,8 @@ class PlaceLaw(BelievingLaw):
         Largest change of v_x [m/s^2].
     phi_min, phi_max : float, optional
         Bounds of phi [rad], alike on both sides of straight ahead.
+    felt : float, optional
+        Largest angle between the tip's pole and a contact that the sensor feels [rad].
     moves : Moves, optional
         How the finger gets about off the object; None if it cannot move along the belt.
     room : float, optional
@@ -102,6 +104,7 @@ class PlaceLaw(BelievingLaw):
         rate: float = 0.05,
         phi_min: float = math.radians(33.0),
         phi_max: float = math.radians(147.0),
+        felt: float = math.pi / 2.0,
         moves: Moves | None = None,
         room: float = 0.0,
     ) -> None:
@@ -112,6 +115,7 @@ class PlaceLaw(BelievingLaw):
             rate=rate,
             phi_min=phi_min,
             phi_max=phi_max,
+            felt=felt,
         )
         self.belt = belt
         self._delay = delay * belt_speed

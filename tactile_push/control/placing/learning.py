@@ -122,7 +122,7 @@ def _value(
         low_slips, _ = _step(low_slips, command, slippery)
         high_slips, _ = _step(high_slips, command, slippery)
         for one in (low, high, low_slips, high_slips):
-            d, x, theta = outside(one, bounds)
+            d, x, theta = outside(one, pushed, bounds)
             beyond = D_WEIGHT * d + X_WEIGHT * x + THETA_WEIGHT * theta
             against += STEP / ARC * beyond / 2.0
         against += STEP / (2.0 * ARC) * TURN_WEIGHT * (middle.theta - aim) ** 2
@@ -154,6 +154,6 @@ def _harder(pushed: Pushed, more: float) -> Pushed:
         ),
         pushed.cos_alpha,
         pushed.sin_alpha,
-        pushed.turning,
+        pushed.tip,
         pushed.lag,
     )

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from tactile_push.mechanics.compiled import compiled, equation
 from tactile_push.mechanics.resistance import LEAST_COSINE, Pressure, settled
+from tactile_push.mechanics.turning_tip import TurningTip, tip_direction, tip_turning
 
 LONGEST_STEP = 5e-4  # of `follow` [m]: the belt's way in a control period of the paper
 ROUNDING = 1e-6  # of a number of steps
@@ -24,7 +25,7 @@ class Pushed(NamedTuple):
     pressure: Pressure  #: how the object resists its turning
     cos_alpha: float  #: of the friction cone, see `friction_cone`
     sin_alpha: float  #: the same
-    turning: float  #: by how much the tip turns for each metre across the belt [rad/m]
+    tip: TurningTip  #: how the tip turns on its way across the belt
     lag: float  #: belt on which the finger gets near to its command by a factor of e [m]
 
 
@@ -55,6 +56,7 @@ class Bounds(NamedTuple):
     d_min: float  #: end of the edge where d is least, a margin inside [m]
     d_max: float  #: the other end [m]
     theta_max: float  #: largest |theta| [rad]
+    felt: float = math.inf  #: largest angle between the tip's pole and the contact [rad]
 
 
 @compiled
@@ -66,14 +68,14 @@ def centre_of_mass(now: Situation, pushed: Pushed) -> float:
 
 @equation
 def _rates(
-    theta: float, d: float, u: float, pushed: Pushed
+    x: float, theta: float, d: float, u: float, pushed: Pushed
 ) -> tuple[float, float, float, float, bool]:
     """Compute theta' and d' under a velocity of the finger, and how d follows a slip.
 
     Then come the lever by which theta' takes from d', the rate at which d gets to where the slip
     would leave it, 0 if there is none, and whether the finger pushes.
     """
-    cos, sin, spin = math.cos(theta), math.sin(theta), pushed.turning * u
+    cos, sin, spin = math.cos(theta), math.sin(theta), tip_turning(x, pushed.tip) * u
     v_t, v_n = cos * u + sin - pushed.r * spin, cos - sin * u
     c_squared, _, _, omega, v_slip = settled(
         v_t, v_n, d, pushed.l, pushed.cos_alpha, pushed.sin_alpha, pushed.pressure
@@ -124,10 +126,10 @@ def step(now: Situation, command: float, h: float, pushed: Pushed) -> tuple[Situ
     decay = math.exp(-h / pushed.lag) if pushed.lag > 0.0 else 0.0
     gap = now.u - command
     u = command + (gap * (1.0 - decay) * pushed.lag / h if h > 0.0 else 0.0)  # on the mean
-    turn, slide, lever, rate, _ = _rates(now.theta, now.d, u, pushed)
+    turn, slide, lever, rate, _ = _rates(now.x, now.theta, now.d, u, pushed)
     aside = _reached(h / 2.0, rate) * slide
     theta = now.theta + h / 2.0 * turn + (h / 2.0 * slide - aside) / lever
-    turn, slide, lever, later, pushes = _rates(theta, now.d + aside, u, pushed)
+    turn, slide, lever, later, pushes = _rates(now.x + h / 2.0 * u, theta, now.d + aside, u, pushed)
     rate = max(rate, later)
     moved = _reached(h, rate) * (slide + rate * aside)
     after = Situation(
@@ -138,12 +140,16 @@ def step(now: Situation, command: float, h: float, pushed: Pushed) -> tuple[Situ
 
 
 @equation
-def outside(now: Situation, bounds: Bounds) -> tuple[float, float, float]:
-    """Return by how much d, x and theta are beyond their bounds, 0 if they are not [m, m, rad]."""
+def outside(now: Situation, pushed: Pushed, bounds: Bounds) -> tuple[float, float, float]:
+    """Return by how much d, x and theta are beyond their bounds, 0 if they are not [m, m, rad].
+
+    theta has two bounds, its own and that of the angle between the edge's normal and the pole.
+    """
+    from_pole = now.theta + math.pi / 2.0 - tip_direction(now.x, pushed.tip)
     return (
         max(bounds.d_min - now.d, now.d - bounds.d_max, 0.0),
         max(bounds.x_min - now.x, now.x - bounds.x_max, 0.0),
-        max(abs(now.theta) - bounds.theta_max, 0.0),
+        max(abs(now.theta) - bounds.theta_max, abs(from_pole) - bounds.felt, 0.0),
     )
 
 
@@ -158,9 +164,20 @@ def bounded_step(
 
 
 @equation
+def rolled(now: Situation, pushed: Pushed) -> float:
+    """Return how far the tip's surface passes the contact for each metre across the belt."""
+    return pushed.r * tip_turning(now.x, pushed.tip)
+
+
+@equation
 def translating(now: Situation, pushed: Pushed) -> float:
-    """Return the command under which the object translates if the contact sticks."""
-    return -math.tan(now.theta + math.atan2(now.d, pushed.l))
+    """Return the command under which the object translates if the contact sticks.
+
+    The edge moves as the tip's surface does there, which is the velocity of the tip's centre less
+    `rolled` times the command along the edge. It has to point through the centre of mass.
+    """
+    cos, sin, d, l = math.cos(now.theta), math.sin(now.theta), now.d, pushed.l
+    return -(d * cos + l * sin) / (l * cos - d * sin - l * rolled(now, pushed))
 
 
 @equation
@@ -178,6 +195,7 @@ def narrowed(bounds: Bounds, steepness: float, x: float, d: float, theta: float)
         d_min=bounds.d_min + d,
         d_max=bounds.d_max - d,
         theta_max=bounds.theta_max - theta,
+        felt=bounds.felt - theta,
     )
 
 

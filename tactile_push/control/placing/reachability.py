@@ -23,6 +23,7 @@ from tactile_push.control.placing.stages import (
     EDGE,
     FRICTION,
     OUT_OF_REACH,
+    SENSOR,
     WITH_RESERVE,
     WORKSPACE,
 )
@@ -165,6 +166,7 @@ def _reason(task: Task, goal: Goal) -> Generator[None, None, str]:
     without = {
         WORKSPACE: replace(task, bounds=bounds._replace(x_min=-FAR, x_max=FAR)),
         EDGE: replace(task, bounds=bounds._replace(d_min=-FAR, d_max=FAR)),
+        SENSOR: replace(task, bounds=bounds._replace(felt=FAR)),
         FRICTION: replace(task, pushed=pushed._replace(cos_alpha=0.0, sin_alpha=1.0)),
         BELT: replace(task, belt=max(4.0 * task.belt, 0.5)),
     }

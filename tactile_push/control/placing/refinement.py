@@ -79,7 +79,7 @@ def residuals(
         The residuals.
     """
     now, length = start, 0.0
-    d_out = x_out = theta_out = 0.0
+    theta = d_out = x_out = theta_out = 0.0
     for i in range(ARCS):
         h = push[ARCS + i] * LENGTH / counts[i]
         length += push[ARCS + i] * LENGTH
@@ -87,7 +87,7 @@ def residuals(
             now, pushes = bounded_step(now, push[i], h, pushed, bounds)
             if not pushes:
                 return math.inf
-            d, x, theta = outside(now, bounds)
+            d, x, theta = outside(now, pushed, bounds)
             d_out += h * d * d
             x_out += h * x * x
             theta_out += h * theta * theta
@@ -96,7 +96,8 @@ def residuals(
     out[1] = (now.theta - goal.theta) / THETA_UNIT
     out[2] = math.sqrt(d_out / whole) / D_OUTSIDE
     out[3] = math.sqrt(x_out / whole) / X_OUTSIDE
-    out[4] = math.sqrt(theta_out / whole) / THETA_OUTSIDE
+    # An end that the sensor does not feel is short, and is none.
+    out[4] = math.sqrt(theta_out / whole + theta * theta) / THETA_OUTSIDE
     out[5] = max(least - length, length - most, 0.0) / BELT_OUTSIDE
     for i in range(ARCS):
         out[BOUNDED + i] = math.sqrt(EFFORT * (push[ARCS + i] + SHORT)) * push[i] / bounds.steepest

@@ -17,6 +17,7 @@ from tactile_push.control.placing.model import (
     Situation,
     centre_of_mass,
     outside,
+    rolled,
     step,
     translating,
 )
@@ -40,16 +41,16 @@ D_GRACE, X_GRACE, THETA_GRACE = 1e-3, 1e-3, math.radians(3.0)
 
 
 @equation
-def _is_outside(now: Situation, bounds: Bounds) -> bool:
+def _is_outside(now: Situation, pushed: Pushed, bounds: Bounds) -> bool:
     """Return whether anything is beyond its bounds."""
-    d, x, theta = outside(now, bounds)
+    d, x, theta = outside(now, pushed, bounds)
     return d > 0.0 or x > 0.0 or theta > 0.0
 
 
 @equation
-def _widened(start: Situation, bounds: Bounds) -> Bounds:
+def _widened(start: Situation, pushed: Pushed, bounds: Bounds) -> Bounds:
     """Return bounds for the search, which the start keeps to."""
-    d, x, theta = outside(start, bounds)
+    d, x, theta = outside(start, pushed, bounds)
     d, x, theta = d + D_GRACE, x + X_GRACE, theta + THETA_GRACE
     return Bounds(
         bounds.steepest,
@@ -59,6 +60,7 @@ def _widened(start: Situation, bounds: Bounds) -> Bounds:
         bounds.d_min - d,
         bounds.d_max + d,
         bounds.theta_max + theta,
+        bounds.felt + theta,
     )
 
 
@@ -74,7 +76,7 @@ def _turn(
     s, h = 0.0, SEARCH_STEP
     while s < LONGEST_TURN:
         after, pushes = step(now, command, h, pushed)
-        if not pushes or _is_outside(after, bounds):
+        if not pushes or _is_outside(after, pushed, bounds):
             return now, command, s, False
         if (after.theta - theta) * command >= 0.0 and (after.theta - now.theta) * command > 0.0:
             share = (theta - now.theta) / (after.theta - now.theta)
@@ -103,7 +105,7 @@ def search(
     is the square of what is missed, in millimetres and degrees, and the belt in `LENGTH`s.
     """
     row, theta_max = 0, bounds.theta_max
-    bounds = _widened(start, bounds)
+    bounds = _widened(start, pushed, bounds)
     for i in range(ANGLES):
         angle = theta_max * (2.0 * i / (ANGLES - 1) - 1.0)
         for steepness in STEEPNESSES:
@@ -130,7 +132,7 @@ def search(
                             found[row],
                         )
                     now, pushes = step(now, first_u, h, pushed)
-                    if not pushes or _is_outside(now, bounds):
+                    if not pushes or _is_outside(now, pushed, bounds):
                         break
                 row += 1
 
@@ -150,7 +152,7 @@ def search_roundabout(
     The arguments are those of `search`, but for `ROUNDABOUT` rows.
     """
     row, theta_max = 0, bounds.theta_max
-    bounds = _widened(start, bounds)
+    bounds = _widened(start, pushed, bounds)
     found[:ROUNDABOUT, 0] = math.inf
     for share in FIRST:
         now, s, inside = start, 0.0, True
@@ -158,7 +160,7 @@ def search_roundabout(
         for end in FIRST_WAYS:
             while inside and s < end - SEARCH_STEP / 2.0:
                 now, pushes = step(now, command, SEARCH_STEP, pushed)
-                inside = pushes and not _is_outside(now, bounds)
+                inside = pushes and not _is_outside(now, pushed, bounds)
                 s += SEARCH_STEP
             for i in range(FEW_ANGLES):
                 angle = theta_max * (2.0 * i / (FEW_ANGLES - 1) - 1.0)
@@ -214,13 +216,14 @@ def _translate(
     if not there:
         return nothing
     missing = goal.x - centre_of_mass(after, pushed)
-    way = missing / drift if drift != 0.0 else 0.0
+    rate = drift * (1.0 - rolled(now, pushed) * math.cos(now.theta))  # of the object's x
+    way = missing / rate if rate != 0.0 else 0.0
     longest = max(most - first_s - last_s, 0.0)
     way = min(max(way, least - first_s - last_s, 0.0), longest)
     end = now.x + drift * way
     if first_s + last_s > most or end < bounds.x_min or end > bounds.x_max:
         return nothing
-    x_error = (missing - drift * way) / 1e-3
+    x_error = (missing - rate * way) / 1e-3
     length = first_s + way + last_s
     return x_error * x_error + length / LENGTH, drift, way, last_u, length
 
@@ -244,7 +247,7 @@ def _branch(
     while s + h <= most:
         now, pushes = step(now, second, h, pushed)
         s += h
-        if not pushes or _is_outside(now, bounds):
+        if not pushes or _is_outside(now, pushed, bounds):
             return
         if s >= least:
             x_error = (centre_of_mass(now, pushed) - goal.x) / 1e-3

@@ -42,5 +42,7 @@ WITH_RESERVE, AT_THE_LIMITS, OUT_OF_REACH = 'with reserve', 'at the limits', 'ou
 VERDICTS = (UNKNOWN, WITH_RESERVE, AT_THE_LIMITS, OUT_OF_REACH)
 # What forbids a goal, which can be reached as soon as this one is no limit; the first of several.
 # `CONTACT`: from where the finger touches, sticking and slipping do not lead there.
+# `SENSOR`: the tip's pole would point so far from the contact that it is not felt.
 FRICTION, EDGE, WORKSPACE, BELT, CONTACT = 'friction', 'edge', 'workspace', 'belt', 'contact'
-REASONS = ('', FRICTION, EDGE, WORKSPACE, BELT, CONTACT)
+SENSOR = 'sensor'
+REASONS = ('', FRICTION, EDGE, WORKSPACE, BELT, CONTACT, SENSOR)

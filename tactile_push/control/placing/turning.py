@@ -132,7 +132,7 @@ def _cost(
         if not pushes:
             return cost + LOST
         off = now.theta - theta
-        d, x, _ = outside(now, bounds)
+        d, x, _ = outside(now, pushed, bounds)
         cost += COARSE * (abs(off) + D_WEIGHT * d + X_WEIGHT * x)
         if off * side < 0.0:
             break

@@ -10,11 +10,12 @@ from tactile_push.control.placing.believing import D_MARGIN, Belief, BelievingLa
 from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Pushed
 from tactile_push.mechanics import friction_cone
+from tactile_push.mechanics.turning_tip import STRAIGHT
 
 BELT_SPEED, PERIOD, LAG = 0.005, 0.1, 0.1
 PUSHED = Pushed(
     *(0.02375, 0.0135, PRESSURE),
-    *(*friction_cone(math.inf), 0.0, 0.0),
+    *(*friction_cone(math.inf), STRAIGHT, 0.0),
 )
 BELIEF = Belief(
     *(0.01, 0.1, 0.002, PUSHED, (0.0, math.inf), (-0.025, 0.02)),

@@ -28,15 +28,17 @@ from tactile_push.control.placing.model import (
 )
 from tactile_push.mechanics import friction_cone
 from tactile_push.mechanics.resistance import Pressure
+from tactile_push.mechanics.turning_tip import STRAIGHT, TurningTip
 
 L, R, C = 0.02375, 0.0135, 0.0187
 BOUNDS = Bounds(1.54, 2e3, -0.1, 0.1, -0.02, 0.02, math.radians(40.0))
+USUAL = TurningTip(0.06, 0.08, 0.08, -1.0)  # -12.5 rad/m at x = 0
 HOUSE = 14.0  # both poles of (S7) by the belt's way [1/m]
 
 
-def pushed(mu_c=math.inf, turning=0.0):
+def pushed(mu_c=math.inf, tip=STRAIGHT):
     pressure = Pressure(C**2, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))
-    return Pushed(L, R, pressure, *friction_cone(mu_c), turning, 0.0)
+    return Pushed(L, R, pressure, *friction_cone(mu_c), tip, 0.0)
 
 
 def aside(x, theta, d):
@@ -108,7 +110,7 @@ def test_the_linear_law_does_not_hold_an_object_that_it_carries_out_of_the_works
 @pytest.mark.parametrize('mu_c', [0.0, 0.1, 0.5, math.inf])
 def test_an_object_is_brought_to_its_place_and_held_whatever_the_friction(mu_c):
     # At first with a contact that has to slip: |d| > l mu_c for the smaller two.
-    thing = pushed(mu_c, -12.5)
+    thing = pushed(mu_c, USUAL)
     now, places = held(aside(0.006, 0.1, -0.003), thing, 0.0, 50)
     assert np.abs(places[40:]).max() < 2e-3
     # Straight ahead, and the contact sticks: docs/placing.md.

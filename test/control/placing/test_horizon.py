@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from support.turning_tip import A, B, X, Y, psi
 from tactile_push.control.placing import horizon, refinement
 from tactile_push.control.placing.arcs import ARCS, LENGTH
 from tactile_push.control.placing.car import shortest_belt
@@ -21,6 +22,7 @@ from tactile_push.control.placing.model import (
 )
 from tactile_push.mechanics import friction_cone
 from tactile_push.mechanics.resistance import Pressure
+from tactile_push.mechanics.turning_tip import STRAIGHT, TurningTip
 
 L, R, C = 0.02375, 0.0135, 0.0187
 STEEPEST = 1.5
@@ -30,7 +32,7 @@ BOUNDS = Bounds(STEEPEST, 1e9, -0.1, 0.1, -0.022, 0.022, 0.8)
 
 def pushed(mu_c=math.inf, r=R):
     pressure = Pressure(C * C, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))
-    return Pushed(L, r, pressure, *friction_cone(mu_c), 0.0, 0.0)
+    return Pushed(L, r, pressure, *friction_cone(mu_c), STRAIGHT, 0.0)
 
 
 def planned(start, goal, numbers, bounds, most=0.3, roundabout=False):
@@ -98,6 +100,30 @@ def test_of_two_plans_one_that_misses_less_is_better_unless_it_takes_much_more_b
     longer = np.array((0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0))
     near, exact = Plan(push, 0.0, 1e-4, 0.0, 0.0), Plan(push, 0.0, 0.0, 0.0, 0.0)
     assert exact.merit < near.merit < Plan(longer, 0.0, 0.0, 0.0, 0.0).merit
+
+
+def farthest_from_the_pole(start, push, numbers):
+    """Return the largest angle between the edge's normal and the usual finger's pole on a push."""
+    most = 0.0
+    for u, belt in zip(push[:ARCS], push[ARCS:], strict=True):
+        for _ in range(50):
+            start = follow(start, u, belt * LENGTH / 50, numbers)
+            most = max(most, abs(start.theta + math.pi / 2.0 - psi(start.x)))
+    return most
+
+
+def test_a_plan_keeps_the_contact_where_the_sensor_feels_it():
+    numbers = pushed(1.0)._replace(tip=TurningTip(A, B, Y, -1.0))
+    start = Situation(X, -0.147, -0.0118, 0.0, 0.0)
+    goal = Goal(centre_of_mass(start, numbers) + 0.03, 0.5)
+    felt = math.radians(65.0)
+    free = planned(start, goal, numbers, BOUNDS)
+    bound = planned(start, goal, numbers, BOUNDS._replace(felt=felt))
+    assert free.arrives
+    assert bound.arrives
+    slack = math.radians(0.5)
+    assert farthest_from_the_pole(start, bound.push, numbers) < felt + slack
+    assert felt + slack < farthest_from_the_pole(start, free.push, numbers)
 
 
 def test_no_piece_of_a_plan_is_more_than_one_refinement(monkeypatch):

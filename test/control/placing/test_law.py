@@ -24,12 +24,13 @@ from tactile_push.control.placing.stages import (
     RELEASED,
 )
 from tactile_push.mechanics import friction_cone
+from tactile_push.mechanics.turning_tip import STRAIGHT
 
 BELT_SPEED, PERIOD, PIECE = 0.005, 0.1, 5e-4
 AHEAD = math.pi / 2.0
 PUSHED = Pushed(
     *(0.02375, 0.0135, PRESSURE),
-    *(*friction_cone(math.inf), 0.0, 0.0),
+    *(*friction_cone(math.inf), STRAIGHT, 0.0),
 )
 ENDS = (-0.025, 0.025)
 GOAL, START = Goal(-0.02, 0.0), Situation(0.0, 0.2, 0.003, 0.0, 0.0)

@@ -11,6 +11,7 @@ from tactile_push.control.placing.learning import Spread, telling_command
 from tactile_push.control.placing.model import Bounds, Pushed, Situation, follow
 from tactile_push.mechanics import friction_cone
 from tactile_push.mechanics.resistance import Pressure
+from tactile_push.mechanics.turning_tip import STRAIGHT
 
 PIECE, NOISE, SLIPPERY = 5e-4, 0.005, 0.1
 SPREAD = Spread(NOISE, 4e-3, 0.3, NOISE, PIECE)
@@ -19,7 +20,7 @@ BOUNDS = Bounds(1.5, 2000.0, -0.1, 0.1, -0.022, 0.022, 0.8)
 
 def pushed(c=0.0187, mu_c=math.inf):
     pressure = Pressure(c * c, 0.0, 0.0, np.array((1.0, 0.0, 1.0)))
-    return Pushed(0.02375, 0.0135, pressure, *friction_cone(mu_c), 0.0, 0.0)
+    return Pushed(0.02375, 0.0135, pressure, *friction_cone(mu_c), STRAIGHT, 0.0)
 
 
 def readings(commands, theta, d, log_c, mu_c=math.inf):

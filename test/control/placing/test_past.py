@@ -8,11 +8,12 @@ import pytest
 from support.sticking_block import PRESSURE
 from tactile_push.control.placing.model import Pushed, Situation, follow
 from tactile_push.control.placing.past import Past, on_grid
+from tactile_push.mechanics.turning_tip import STRAIGHT
 
 PIECE, LAG = 5e-4, 5e-4
 PUSHED = Pushed(
     *(0.02375, 0.0135, PRESSURE),
-    *(0.0, 1.0, 0.0, LAG),
+    *(0.0, 1.0, STRAIGHT, LAG),
 )
 
 

@@ -17,6 +17,7 @@ from tactile_push.control.placing.model import (
 from tactile_push.control.placing.planner import Planner
 from tactile_push.mechanics import friction_cone
 from tactile_push.mechanics.resistance import Pressure
+from tactile_push.mechanics.turning_tip import STRAIGHT
 
 BOUNDS = Bounds(1.54, 2000.0, -0.1, 0.1, -0.022, 0.022, 0.8)
 PIECE = 5e-4
@@ -24,7 +25,7 @@ PIECE = 5e-4
 
 def pushed(c=0.0187, mu_c=math.inf):
     pressure = Pressure(c * c, 1.5, 0.0, np.array((1.0, 0.0, 1.0)))
-    return Pushed(0.02375, 0.0135, pressure, *friction_cone(mu_c), 0.0, PIECE)
+    return Pushed(0.02375, 0.0135, pressure, *friction_cone(mu_c), STRAIGHT, PIECE)
 
 
 def closed_loop(truth, believed, goal, now):

@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from support.sticking_block import PRESSURE
+from support.turning_tip import A, B, Y, psi
 from tactile_push.control.placing import horizon
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation, centre_of_mass
 from tactile_push.control.placing.reachability import (
@@ -22,17 +23,19 @@ from tactile_push.control.placing.stages import (
     BELT,
     FRICTION,
     OUT_OF_REACH,
+    SENSOR,
     WITH_RESERVE,
     WORKSPACE,
 )
 from tactile_push.mechanics import friction_cone
+from tactile_push.mechanics.turning_tip import STRAIGHT, TurningTip
 
 BOUNDS = Bounds(1.54, 2000.0, -0.1, 0.1, -0.024, 0.024, 0.85)
 NOW = Situation(0.0, 0.1, -0.002, 0.0, 0.0)
 
 
 def task(mu_c=math.inf, belt=0.3, now=NOW, bounds=BOUNDS):
-    pushed = Pushed(0.02375, 0.0135, PRESSURE, *friction_cone(mu_c), 0.0, 0.0)
+    pushed = Pushed(0.02375, 0.0135, PRESSURE, *friction_cone(mu_c), STRAIGHT, 0.0)
     return Task(now, pushed, bounds, belt)
 
 
@@ -58,6 +61,20 @@ def test_a_goal_farther_aside_than_the_finger_gets_on_the_belt_is_out_of_reach_f
 def test_a_goal_beyond_the_workspace_is_out_of_reach_for_it():
     told = reach(task(belt=0.4), Goal(-0.14, 0.0))
     assert (told.verdict, told.reason) == (OUT_OF_REACH, WORKSPACE)
+
+
+def test_a_goal_where_the_tip_points_away_from_the_contact_is_out_of_reach_for_the_sensor():
+    # With its centre of mass there the edge is touched at x = 45 to 88 mm, where the pole of the
+    # usual finger is within 21 degrees of the way across: theta has to be smaller.
+    goal, numbers = Goal(0.05, 0.45), task().pushed
+    across = goal.x + (numbers.l + numbers.r) * math.sin(goal.theta)
+    ends = [across + d * math.cos(goal.theta) for d in (BOUNDS.d_min, BOUNDS.d_max)]
+    assert max(psi(ends[0]), psi(ends[1])) < goal.theta - 0.03
+    turns = replace(task(), pushed=numbers._replace(tip=TurningTip(A, B, Y, -1.0)))
+    bounds = BOUNDS._replace(felt=math.pi / 2.0)
+    assert reach(turns, goal).verdict == reach(replace(task(), bounds=bounds), goal).verdict
+    told = reach(replace(turns, bounds=bounds), goal)
+    assert (told.verdict, told.reason) == (OUT_OF_REACH, SENSOR)
 
 
 def test_without_friction_a_contact_beside_the_middle_cannot_turn_back_on_a_short_belt():

@@ -17,10 +17,11 @@ from tactile_push.control.placing.reachability import (
 )
 from tactile_push.control.placing.reachable_set import ReachableSet, reachable_set
 from tactile_push.mechanics import friction_cone
+from tactile_push.mechanics.turning_tip import STRAIGHT
 
 TASK = Task(
     Situation(0.0, 0.1, -0.002, 0.0, 0.0),
-    Pushed(0.02375, 0.0135, PRESSURE, *friction_cone(math.inf), 0.0, 0.0),
+    Pushed(0.02375, 0.0135, PRESSURE, *friction_cone(math.inf), STRAIGHT, 0.0),
     Bounds(1.54, 2000.0, -0.1, 0.1, -0.024, 0.024, 0.85),
     0.15,
 )

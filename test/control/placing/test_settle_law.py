@@ -13,12 +13,13 @@ from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Pushed, Situation, follow
 from tactile_push.control.placing.settle_law import SettleLaw
 from tactile_push.mechanics import friction_cone
+from tactile_push.mechanics.turning_tip import STRAIGHT
 
 BELT_SPEED, PERIOD, PIECE = 0.005, 0.1, 5e-4
 AHEAD = math.pi / 2.0
 PUSHED = Pushed(
     *(0.02375, 0.0135, PRESSURE),
-    *(*friction_cone(math.inf), 0.0, 0.0),
+    *(*friction_cone(math.inf), STRAIGHT, 0.0),
 )
 START = Situation(0.0, math.radians(20.0), -0.006, 0.0, 0.0)
 

@@ -13,12 +13,14 @@ from tactile_push.control.placing.learning import Spread
 from tactile_push.control.placing.model import Pushed, Situation, centre_of_mass, follow
 from tactile_push.control.placing.steer_law import SteerLaw
 from tactile_push.mechanics import friction_cone
+from tactile_push.mechanics.turning_tip import TurningTip
 
 BELT_SPEED, PERIOD, PIECE = 0.005, 0.1, 5e-4
 KP, KD, THETA_D = 0.05, 5.0, -0.2
+USUAL = TurningTip(0.06, 0.08, 0.08, -1.0)  # -12.5 rad/m at x = 0
 PUSHED = Pushed(
     *(0.02375, 0.0135, PRESSURE),
-    *(*friction_cone(0.3), -12.5, 0.0),
+    *(*friction_cone(0.3), USUAL, 0.0),
 )
 START = Situation(0.0, 0.05, -0.003, 0.0, 0.0)
 

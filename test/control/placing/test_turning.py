@@ -11,6 +11,7 @@ from tactile_push.control.placing.model import Bounds, Pushed, Situation, follow
 from tactile_push.control.placing.turning import turning_command
 from tactile_push.mechanics import friction_cone
 from tactile_push.mechanics.resistance import Pressure
+from tactile_push.mechanics.turning_tip import STRAIGHT
 
 L, R, C = 0.02375, 0.0135, 0.0187
 PIECE, STEEPEST = 5e-4, 1.54
@@ -19,7 +20,7 @@ BOUNDS = Bounds(STEEPEST, 2000.0, -0.1, 0.1, -0.023, 0.023, math.inf)
 
 def pushed(mu_c=math.inf, lag=0.0):
     round_ = np.array((1.0, 0.0, 1.0))
-    return Pushed(L, R, Pressure(C * C, 0.0, 0.0, round_), *friction_cone(mu_c), 0.0, lag)
+    return Pushed(L, R, Pressure(C * C, 0.0, 0.0, round_), *friction_cone(mu_c), STRAIGHT, lag)
 
 
 START = Situation(0.0, 0.35, -0.006, 0.0, 0.0)
