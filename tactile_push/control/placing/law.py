@@ -144,6 +144,7 @@ class PlaceLaw(BelievingLaw):
         self._aim = math.nan
         self._goes_around = False  # whether the end was missed, so that a plan is to go around
         self._kept_since = math.inf  # belt used when the end was near for the first time [m]
+        self._cannot_wait = False  # whether no plan that keeps belt before the end arrives any more
         self._stays = False  # although the finger is not on its line
         self._elsewhere.begin()
         self._planner.forget()
@@ -286,6 +287,10 @@ class PlaceLaw(BelievingLaw):
             self._kept_since = min(self._kept_since, self.used)
         arrives = plan is not None and plan.arrives
         self._elsewhere.count(arrives and self._planner.takes_the_likely)
+        if not arrives:
+            self._cannot_wait |= self.plan is not None and self.plan.arrives
+        elif plan is not None and plan.length >= KEPT_BACK + last:
+            self._cannot_wait = False
         if arrives:
             self._goes_around = False
         elif plan is not None and plan.length < last and not plan.near:
@@ -326,7 +331,8 @@ class PlaceLaw(BelievingLaw):
             return DETOUR
         sure = spread.d <= SURE and spread.theta <= SURE_ANGLE
         waited = self.used - self._kept_since > KEPT_SHARE * self.belt
-        if sure or waited or (self.plan is not None and not self.plan.arrives):
+        fails = self.plan is not None and not self.plan.arrives
+        if sure or waited or fails or self._cannot_wait:
             return 0.0
         return KEPT_BACK + self._delay
 

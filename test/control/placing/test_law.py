@@ -116,7 +116,12 @@ def test_it_does_not_learn_for_ever():
 
 
 def test_nothing_is_let_go_while_d_is_not_known_well():
-    sure, unsure = law(), law()
+    # An object that can be held at its goal: d + l tan theta = 0 on its leaf (docs/placing.md).
+    goal, leaf = Goal(-0.02, -0.469), START.d + PUSHED.r * START.theta
+    assert leaf - PUSHED.r * goal.theta + PUSHED.l * math.tan(goal.theta) == pytest.approx(
+        0, abs=1e-4
+    )
+    sure, unsure = law(goal), law(goal)
     driven(sure)
     driven(unsure, d_spread=4e-4, periods=round(sure.used / PIECE) + 10)
     assert sure.stage == RELEASED
@@ -128,6 +133,18 @@ def test_it_does_not_wait_for_ever():
     end = driven(one, d_spread=4e-4)
     assert one.stage == RELEASED
     assert centre_of_mass(end, PUSHED) == pytest.approx(-0.02, abs=1e-4)
+
+
+def test_an_object_that_cannot_wait_at_its_goal_does_not_go_around_for_being_surer():
+    # At this angle it drifts past the goal. To be surer may take a share of 5 % of the belt.
+    goal = Goal(centre_of_mass(START, PUSHED) - 0.02, 0.43)
+    sure, unsure = law(goal), law(goal)
+    driven(sure)
+    end = driven(unsure, d_spread=4e-4)
+    assert (sure.stage, unsure.stage) == (RELEASED, RELEASED)
+    assert unsure.used <= sure.used + 0.05 * 0.3
+    assert centre_of_mass(end, PUSHED) == pytest.approx(goal.x, abs=2e-4)
+    assert end.theta == pytest.approx(goal.theta, abs=math.radians(0.2))
 
 
 def test_at_the_end_of_the_belt_it_says_that_it_has_missed_and_does_not_let_go():
@@ -246,6 +263,13 @@ def test_an_object_whose_lift_has_begun_is_let_go_whatever_is_felt():
         one.reset()
         one.pass_time(PERIOD)
     assert one.stage == RELEASED
+
+
+@pytest.mark.parametrize('felt', [math.pi / 2.0, 1.2])
+def test_plans_stay_some_way_inside_of_where_the_sensor_feels(felt):
+    one = law(felt=felt)
+    driven(one, periods=2)
+    assert felt - 0.1 < one.task().bounds.felt < felt
 
 
 def test_the_task_is_what_is_left_of_it():
