@@ -31,11 +31,15 @@ class Rival(PushLaw):
         self._belief: Belief | None = None
         self.used = 0.0
         self.stage = PLACING
-        self.let_go_in = math.nan
+        self.tell_in = math.nan
 
     def believe(self, belief: Belief | None) -> None:
         """Take what is believed at the last update's reading; None if nothing is."""
         self._belief = belief
+
+    def told(self) -> None:
+        """Take note that the word to let go was given."""
+        self.tell_in = math.nan
 
     def update(self, theta: float) -> float:
         """Give the push angle of the next period, as in `PushLaw`."""
@@ -44,7 +48,7 @@ class Rival(PushLaw):
         if self.stage != PLACING:
             self.phi = AHEAD
         elif belief is not None and self._is_there(belief):
-            self.stage, self.let_go_in = RELEASED, 0.0
+            self.stage, self.tell_in = RELEASED, 0.0
         elif self.used >= self.belt:
             self.stage = MISSED
         else:

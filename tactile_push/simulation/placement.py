@@ -96,8 +96,9 @@ def place(
         if math.isfinite(law.tell_in):
             rig.lift(law.tell_in)
             law.told()
-        if rig.free_in <= period:
-            rig.step(tick.v_x or 0.0, rig.free_in)
+        if rig.lifted or rig.free_in <= period:
+            if not rig.lifted:
+                rig.step(tick.v_x or 0.0, rig.free_in)
             watch(rig, tick)
             break
         if law.stage == MISSED:
