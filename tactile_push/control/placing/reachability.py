@@ -27,6 +27,7 @@ from tactile_push.control.placing.stages import (
     WITH_RESERVE,
     WORKSPACE,
 )
+from tactile_push.mechanics.turning_tip import STRAIGHT
 
 # What is spared for a reserve: shares of cot(phi) and of the belt, ends of edge and workspace [m],
 # theta [rad].
@@ -164,9 +165,13 @@ def with_reserve(task: Task) -> Task:
 def _reason(task: Task, goal: Goal) -> Generator[None, None, str]:
     bounds, pushed = task.bounds, task.pushed
     without = {
-        WORKSPACE: replace(task, bounds=bounds._replace(x_min=-FAR, x_max=FAR)),
-        EDGE: replace(task, bounds=bounds._replace(d_min=-FAR, d_max=FAR)),
         SENSOR: replace(task, bounds=bounds._replace(felt=FAR)),
+        WORKSPACE: replace(
+            task,
+            bounds=bounds._replace(x_min=-FAR, x_max=FAR),
+            pushed=pushed._replace(tip=STRAIGHT),  # of a finger that gets everywhere
+        ),
+        EDGE: replace(task, bounds=bounds._replace(d_min=-FAR, d_max=FAR)),
         FRICTION: replace(task, pushed=pushed._replace(cos_alpha=0.0, sin_alpha=1.0)),
         BELT: replace(task, belt=max(4.0 * task.belt, 0.5)),
     }
