@@ -131,6 +131,8 @@ def judging(task: Task, goal: Goal) -> Generator[None, None, Reach]:
             return spared or Reach(AT_THE_LIMITS, '', plan)
         if look == PLAIN:
             first = plan
+    if spared := (yield from _sparing(task, goal)):  # from which other plans are found
+        return spared
     reason = yield from _reason(task, goal)
     return Reach(OUT_OF_REACH, reason, first)
 
