@@ -11,11 +11,12 @@ from tactile_push.control.law import AHEAD, motion_angle
 from tactile_push.control.placing.arcs import UNKNOWNS, rest_of
 from tactile_push.control.placing.believing import D_MARGIN, Belief, BelievingLaw
 from tactile_push.control.placing.elsewhere import Elsewhere
+from tactile_push.control.placing.ending import Ending
 from tactile_push.control.placing.horizon import Plan
-from tactile_push.control.placing.learning import Spread, telling_command
+from tactile_push.control.placing.learning import telling_command
 from tactile_push.control.placing.model import Bounds, Goal, Pushed, Situation, ahead
 from tactile_push.control.placing.past import on_grid
-from tactile_push.control.placing.planner import DETOUR, Planner
+from tactile_push.control.placing.planner import Planner
 from tactile_push.control.placing.reachability import Task
 from tactile_push.control.placing.regrasp import Moves
 from tactile_push.control.placing.stages import (
@@ -38,12 +39,6 @@ VAGUE = 2e-3  # the same beyond which no other contact is looked for [m]; picked
 STILL = 0.1  # of the belt's speed, with which a finger that leaves may still go across; picked
 LEARNED_SHARE = 0.08  # of the belt, after which it does so anyhow; picked
 SPREADS = 1.0  # deviations of d that are kept from the edge's ends beside `D_MARGIN`
-# Nothing is let go of while less is known than these standard deviations [m, rad]: so much belt [m]
-# is kept before the end, but for no longer than a share of all the belt; picked.
-SURE, SURE_ANGLE, KEPT_BACK, KEPT_SHARE = 3.5e-4, math.radians(0.3), 0.01, 0.05
-# Belt at the end of a plan on which a turn that differs from what is believed is made up for [m],
-# the share by which it may differ though c is known, and the drift for which that is worth while.
-LAST_TURN, OWN_DOUBT, CLEAR_DRIFT = 0.02, 0.02, 0.2
 LARGEST_ANGLE = math.radians(50.0)  # of theta in plans
 
 
@@ -121,6 +116,7 @@ class PlaceLaw(BelievingLaw):
         self._delay = delay * belt_speed
         self._bounds = self._bounds._replace(theta_max=LARGEST_ANGLE)
         self._planner = Planner(self._bounds)
+        self._ending = Ending(belt, self._piece, self._delay)
         self._elsewhere = Elsewhere(moves, room, period)
         self.stage = NO_GOAL
         self.aim_at(goal)
@@ -142,10 +138,8 @@ class PlaceLaw(BelievingLaw):
         self._planned_at = math.nan  # on the belt's way [m]
         self._free_at = math.inf  # where the object is let go, on the belt's way [m]
         self._aim = math.nan
-        self._goes_around = False  # whether the end was missed, so that a plan is to go around
-        self._kept_since = math.inf  # belt used when the end was near for the first time [m]
-        self._cannot_wait = False  # whether no plan that keeps belt before the end arrives any more
         self._stays = False  # although the finger is not on its line
+        self._ending.begin()
         self._elsewhere.begin()
         self._planner.forget()
 
@@ -273,37 +267,29 @@ class PlaceLaw(BelievingLaw):
 
     def _place(self, now: Situation, belief: Belief, bounds: Bounds, left: float) -> float:
         """Plan anew and return the command of the next period."""
-        most, last = max(left, 0.0), self._piece + self._delay
+        most = max(left, 0.0)
         way = 0.0 if math.isnan(self._planned_at) else self._past.way - self._planned_at
         self._planned_at = self._past.way
         plan = self._planner.plan(
-            *(now, belief.pushed, self._upstream(now, belief), most),
+            *(now, belief.pushed, self._ending.aim(self.goal, self.plan, now, belief), most),
             others=_others(belief),
-            least=min(self._least(belief.spread), most),
+            least=min(self._ending.least(self.plan, belief.spread, self.used), most),
             way=way,
             bounds=bounds,
         )
-        if plan is not None and plan.length < KEPT_BACK + last:
-            self._kept_since = min(self._kept_since, self.used)
         arrives = plan is not None and plan.arrives
         self._elsewhere.count(arrives and self._planner.takes_the_likely)
-        if not arrives:
-            self._cannot_wait |= self.plan is not None and self.plan.arrives
-        elif plan is not None and plan.length >= KEPT_BACK + last:
-            self._cannot_wait = False
-        if arrives:
-            self._goes_around = False
-        elif plan is not None and plan.length < last and not plan.near:
-            self._planner.drop()
-            self._goes_around = True
+        is_last = self._ending.take(plan, self.plan, self.used)
         self.plan = plan
-        ends = plan is not None and plan.near and plan.length < last
+        ends = plan is not None and plan.near and is_last
+        if is_last and not ends:
+            self._planner.drop()
         if plan is not None and ends:
             self.tell_in = max(plan.length - self._delay, 0.0) / self._belt_speed
             self._let_go(plan)
         elif left <= self._piece:
             self.stage = MISSED
-        if plan is None or (plan.length < last and not ends):
+        if plan is None or (is_last and not ends):
             # Translating keeps what can be reached for the longest.
             return ahead(now, belief.pushed, bounds)
         return plan.command(self._piece)
@@ -324,33 +310,6 @@ class PlaceLaw(BelievingLaw):
                 self.away = self._elsewhere.velocity()
                 self._planner.drop()
         return True
-
-    def _least(self, spread: Spread) -> float:
-        """Return the belt that a plan takes at the least [m]."""
-        if self._goes_around:
-            return DETOUR
-        sure = spread.d <= SURE and spread.theta <= SURE_ANGLE
-        waited = self.used - self._kept_since > KEPT_SHARE * self.belt
-        fails = self.plan is not None and not self.plan.arrives
-        if sure or waited or fails or self._cannot_wait:
-            return 0.0
-        return KEPT_BACK + self._delay
-
-    def _upstream(self, now: Situation, belief: Belief) -> Goal:
-        """Return the goal, moved against the object's drift there by what the turn may be wrong.
-
-        An object that turns more or less than believed is aside when theta is right. If it is too
-        far up the drift, it drifts to the goal; from too far down nothing short leads back.
-        """
-        if self.plan is None:
-            return self.goal
-        goal, pushed = self.goal, belief.pushed
-        d = now.d + pushed.r * (now.theta - goal.theta)  # on the leaf
-        drift = math.tan(goal.theta + math.atan2(d, pushed.l))  # towards smaller x
-        left = min(max(self.plan.length - self._piece, 0.0), LAST_TURN)
-        doubt = (belief.spread.log_c + OWN_DOUBT) * left
-        side = min(max(drift / CLEAR_DRIFT, -1.0), 1.0)
-        return goal._replace(x=goal.x + side * doubt)
 
     def _let_go(self, plan: Plan) -> None:
         """Let go at the end of a plan."""
