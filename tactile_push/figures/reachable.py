@@ -18,6 +18,7 @@ from tactile_push.control.placing.stages import (
     EDGE,
     FRICTION,
     OUT_OF_REACH,
+    SENSOR,
     WITH_RESERVE,
     WORKSPACE,
 )
@@ -31,6 +32,7 @@ COLORS = {
     (OUT_OF_REACH, BELT): ('not: belt', '#F5E6C8'),
     (OUT_OF_REACH, WORKSPACE): ('not: workspace', '0.85'),
     (OUT_OF_REACH, EDGE): ("not: edge's end", '#E69F00'),
+    (OUT_OF_REACH, SENSOR): ('not: sensor', '#CC79A7'),
     (OUT_OF_REACH, FRICTION): ('not: friction', '#D55E00'),
     (OUT_OF_REACH, CONTACT): ('not: contact', '0.55'),
 }

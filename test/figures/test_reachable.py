@@ -10,7 +10,8 @@ import pytest
 from matplotlib.colors import to_hex
 
 from tactile_push.control.placing.reachable_set import ReachableSet
-from tactile_push.figures.reachable import plot_reachable
+from tactile_push.control.placing.stages import OUT_OF_REACH, REASONS
+from tactile_push.figures.reachable import COLORS, plot_reachable
 
 RESERVE, BELT = ('with reserve', ''), ('out of reach', 'belt')
 FOUND = ReachableSet(
@@ -64,3 +65,9 @@ def test_every_file_is_written(tmp_path):
     files = [tmp_path / 'a.png', tmp_path / 'b.svg']
     plot_reachable(FOUND, {}, files)
     assert all(file.stat().st_size > 2000 for file in files)
+
+
+def test_every_reason_has_a_colour_of_its_own():
+    reasons = {(OUT_OF_REACH, reason) for reason in REASONS if reason}
+    assert reasons <= set(COLORS)
+    assert len({color for _, color in COLORS.values()}) == len(COLORS)
