@@ -46,8 +46,9 @@ def imported_by(folder):
 
 def run_python(program):
     """Run a program in a fresh interpreter and return what it prints as JSON."""
+    # A bound on hanging: on a loaded machine a program that compiles everything takes minutes.
     done = subprocess.run(
-        [sys.executable, '-c', program], capture_output=True, text=True, timeout=120
+        [sys.executable, '-c', program], capture_output=True, text=True, timeout=600
     )
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
