@@ -3,7 +3,7 @@
 """Mechanics and control law alone: one push after the other."""
 
 import math
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -55,7 +55,7 @@ class LawNumbers(NamedTuple):
 
 
 class ServoNumbers(NamedTuple):
-    """The numbers of a `Servo` [s, s, m/s]."""
+    """The numbers of a `Servo` that decide how it moves [s, s, m/s]."""
 
     time_constant: float
     delay: float
@@ -320,7 +320,9 @@ def rollout(
         Periods(steps, period, config.belt_speed),
         config.body,
         Finger(cos_alpha, sin_alpha, config.radius),
-        None if servo is None else ServoNumbers(*astuple(servo)),
+        None
+        if servo is None
+        else ServoNumbers(servo.time_constant, servo.delay, servo.velocity_quantum),
         config.tip if config.tip_turns else None,
         math.inf,
         history,

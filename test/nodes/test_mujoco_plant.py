@@ -23,6 +23,8 @@ from tactile_push.interface import (
 from tactile_push.nodes.mujoco_plant import MujocoPlant, main
 from tactile_push.nodes.ros.diagnostics import OK
 from tactile_push.nodes.ros.parameters import ConfigurationError
+from tactile_push.nodes.ros.plant import LONGEST_STEP
+from tactile_push.paper import BELT_SPEED
 from tactile_push.parameters import WrenchSensorParameters
 
 
@@ -64,7 +66,8 @@ def test_before_the_first_command_a_sensor_of_force_feels_the_object(bench, plan
     assert (
         math.hypot(force.x, force.y, force.z) > least - 0.05 > WrenchSensorParameters.contact_force
     )
-    assert bench.values(TRUE_STATE)['belt_travel'] < 2e-4
+    # It may have been pressed on for one step too long, of 0.1 s at the most where a timer is late.
+    assert bench.values(TRUE_STATE)['belt_travel'] < 2e-4 + BELT_SPEED * LONGEST_STEP
     assert not node._commanded.started
 
 
