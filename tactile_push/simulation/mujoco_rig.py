@@ -25,6 +25,7 @@ from tactile_push.mechanics import (
 )
 from tactile_push.mechanics.compiled import Array
 from tactile_push.simulation.faults import NO_FAULTS, Faults
+from tactile_push.simulation.lift import Lift
 from tactile_push.simulation.mujoco_model import (
     GRAVITY,
     MOST_FRICTION,
@@ -59,7 +60,7 @@ BASE, LINKS, WRIST, LINKS_AND_WRIST = 7, slice(8, 10), 10, slice(8, 11)
 BASE_RATE, LINK_RATES = 6, slice(7, 9)
 
 
-class MujocoRig:
+class MujocoRig(Lift):
     """The rig in motion, as `Rig` is, but by MuJoCo.
 
     Everything that is told of the object, the contact and the finger is what MuJoCo has.
@@ -78,6 +79,7 @@ class MujocoRig:
     def __init__(
         self, config: RigConfig, physics: MujocoPhysics, faults: Faults = NO_FAULTS
     ) -> None:
+        super().__init__()
         self.config = config
         self.physics = physics
         self.faults = faults
@@ -93,8 +95,6 @@ class MujocoRig:
         self._line = self._home.y  # on which they hold the disk's centre [m]
         self.time = 0.0  #: how long it has been in motion [s]
         self.v_y = 0.0  #: the belt's speed at the end of the last step [m/s]
-        self.lifted = False  #: whether the finger is lifted off the object
-        self.free_in = math.inf  #: after how long it is, if its lift has begun [s]
         self.touching = True  #: whether finger and object touch
         #: angle of the tangent plane at the last contact [rad], which turns with a released object
         self.theta = config.theta
@@ -127,22 +127,7 @@ class MujocoRig:
         self.time = 0.0
         self._look()
 
-    def lift(self, after: float = 0.0) -> None:
-        """Lift the finger off the object, which the belt carries on as it lies.
-
-        Parameters
-        ----------
-        after : float, optional
-            When it is told to [s]. The object is free by the servo's lift delay later.
-        """
-        self.free_in = after + self.faults.servo.lift_delay
-        if self.free_in == 0.0:
-            self._let_go()
-
-    def _let_go(self) -> None:
-        self.free_in = math.inf
-        if self.lifted:
-            return
+    def _come_off(self) -> None:
         self._look()  # at the angle of the edge now
         self.lifted = True
         physics = self.physics
@@ -152,15 +137,7 @@ class MujocoRig:
         mujoco.mj_forward(self._model, self._data)
         self._look()
 
-    def put_down(self) -> None:
-        """Put the finger down at the next object, which it touches as it did the first one.
-
-        A finger that is down stays there.
-        """
-        self.free_in = math.inf
-        if not self.lifted:
-            return
-        self.lifted = False
+    def _touch_next(self) -> None:
         self._model.body_pos[self._tip, 2] = 0.0
         finger = self.finger_x, self.finger_y
         self._data.qpos[:BASE] = self._laid
@@ -354,9 +331,7 @@ class MujocoRig:
             data.qvel[BASE_RATE] = self.v_y
             mujoco.mj_step(self._model, data)
             self.time += step
-            self.free_in -= step
-            if self.free_in <= 0.0:
-                self._let_go()
+            self._go_on_lifting(step)
 
     def _within_limits(self, v_x: float, v_along: float, step: float) -> tuple[float, float]:
         """Return the velocities, or 0 where the finger can go no further."""

@@ -26,6 +26,7 @@ from tactile_push.mechanics import (
 )
 from tactile_push.mechanics.contact import piece_at, reach, rotated
 from tactile_push.simulation.faults import NO_FAULTS, Faults
+from tactile_push.simulation.lift import Lift
 from tactile_push.simulation.servo import DelayLine, lagged, quantised
 from tactile_push.simulation.tip import EVEN_TURN, Tip, move_tip
 from tactile_push.tactile import (
@@ -152,7 +153,7 @@ def paper_disk(theta: float = paper.THETA_INITIAL, mu_c: float = math.inf) -> Ri
     return RigConfig(slider, mu_c, theta, 0.0, tip_turns=False)
 
 
-class Rig:
+class Rig(Lift):
     """The rig in motion.
 
     Parameters
@@ -165,6 +166,7 @@ class Rig:
     """
 
     def __init__(self, config: RigConfig, faults: Faults = NO_FAULTS) -> None:
+        super().__init__()
         self.config = config
         self.faults = faults
         self._body = config.body
@@ -178,8 +180,6 @@ class Rig:
         self.along = 0.0  #: how far it has moved along the belt by itself, from its line [m]
         self.belt_travel = 0.0  #: how far the belt has moved [m]
         self.psi = math.pi / 2.0  #: angle of the finger tip's pole in `finger_base` [rad]
-        self.lifted = False  #: whether the finger is lifted off the object
-        self.free_in = math.inf  #: after how long it is, if its lift has begun [s]
         self.touching = True  #: whether finger and object touch
         self.sigma = config.sigma  #: position of the disk along its path around the object [m]
         self.mode = FREE  #: how the contact moved at the end of the last step, an index of `MODES`
@@ -197,31 +197,11 @@ class Rig:
         x, y = reach(theta, d, l, self.config.radius)
         return Pose(self.finger_x - x, self.finger_y - y, theta - tangent_angle(self.sigma, path))
 
-    def lift(self, after: float = 0.0) -> None:
-        """Lift the finger off the object, which the belt carries on as it lies.
-
-        Parameters
-        ----------
-        after : float, optional
-            When it is told to [s]. The object is free by the servo's lift delay later.
-        """
-        self.free_in = after + self.faults.servo.lift_delay
-        if self.free_in == 0.0:
-            self._let_go()
-
-    def _let_go(self) -> None:
-        self.free_in = math.inf
+    def _come_off(self) -> None:
         self.lifted, self.touching = True, False
 
-    def put_down(self) -> None:
-        """Put the finger down at the next object, which it touches as it did the first one.
-
-        A finger that is down stays there.
-        """
-        self.free_in = math.inf
-        if not self.lifted:
-            return
-        self.lifted, self.touching = False, True
+    def _touch_next(self) -> None:
+        self.touching = True
         self.sigma, self._slid = self.config.sigma, None
         self.object_pose = self._first_pose()
 
@@ -430,9 +410,7 @@ class Rig:
         self.finger_x += v_x * duration
         self.along += v_along * duration
         self.psi = psi
-        self.free_in -= duration
-        if self.free_in <= 0.0:
-            self._let_go()
+        self._go_on_lifting(duration)
 
     def _push(self, v_x: float, v_y: float, turning: float, duration: float) -> None:
         """Let the finger, which moves on the belt and turns evenly, move what is in its way."""
